@@ -57,12 +57,12 @@ config::Schema Make() {
       WithDefaultNote("shared_memory", config::OtherKey("transport", "shared_memory, udp, or a mapping", "udp",
                                                         "How samples reach other processes.", TransportKeys())),
       MappingKey("discovery", DiscoveryKeys(), "How processes find each other; needs `transport: udp`."),
-      MappingKey("limits",
-                 {NumberKey("silence_s", {0.1, 3600.0}, 0.6, "Silence after which a node is lost."),
-                  NumberKey("step_s", {0.01, 86400.0}, 0.6, "Deadline of one step."),
-                  NumberKey("start_s", {0.1, 86400.0}, 60.0,
-                            "Until all nodes are ready; also to write their output. Default in a laboratory: 3600.")},
-                 "Limits in wall time."),
+      MappingKey(
+          "limits",
+          {NumberKey("silence_s", {0.1, 3600.0}, 0.6, "Silence after which a node is lost."),
+           NumberKey("step_s", {0.01, 86400.0}, 0.6, "Deadline of one step."),
+           NumberKey("start_s", {0.1, 86400.0}, 60.0, "Until all nodes are ready, and for their output at the end.")},
+          "Limits in wall time."),
       config::Required(config::NamedKey("nodes", NodeKeys(), "The nodes."))};
   return {"launch", "launch/1", "The nodes of a run, its world, rates and transport.",
           config::FileKeys("launch/1", std::move(keys))};

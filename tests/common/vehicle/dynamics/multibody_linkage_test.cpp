@@ -116,7 +116,7 @@ class Linkage : public ::testing::Test {
   Vector3d Contact(const Corner& corner) const {
     return corner.hub - settings_.wheel.radius_m * (Vector3d::UnitZ() - corner.axle.z() * corner.axle).normalized();
   }
-  // A corner whose hub is this far above where it is drawn, by bisection of the arm's angle.
+  // A corner with its hub this far above where it is drawn, by bisection of the arm's angle.
   Corner AtTravel(const std::string& side, double travel_m) const {
     const auto corner = [&](double arm) { return side[0] == 'f' ? Wishbones(side, arm, 0.0) : Strut(side, arm); };
     const double up = side[1] == 'l' ? -1.0 : 1.0;
