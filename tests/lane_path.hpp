@@ -49,8 +49,8 @@ class LanePath final : public Way {
   std::optional<Place> Locate(double x_m, double y_m, std::optional<double> /*z_m*/ = std::nullopt) const override {
     const auto found = road_->Locate(x_m, y_m);
     if (!found) return std::nullopt;
-    return Place{along_ ? AxisLength(found->s_m) : length_m_ - AxisLength(found->s_m),
-                 along_ ? found->t_m - t_m_ : t_m_ - found->t_m};
+    const double d = along_ ? AxisLength(found->s_m) : length_m_ - AxisLength(found->s_m);
+    return Place{d, along_ ? found->t_m - t_m_ : t_m_ - found->t_m, At(d).heading_rad};
   }
 
  private:

@@ -17,11 +17,11 @@ constexpr double kStopHere_mps2 = -4.0;  // with nothing to drive on
 Autopilot::Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way)
     : settings_(settings), path_(std::move(way)), plan_(*path_, settings.speed) {}
 
-SpeedPlan::Allowed Autopilot::AllowedTo(const Way::Place& place, double speed_mps, double heading_rad) const {
+SpeedPlan::Allowed Autopilot::AllowedTo(const Way::Place& place, double limit_mps, double speed_mps,
+                                        double heading_rad) const {
   SpeedPlan::Allowed allowed = plan_.At(place.d_m + settings_.anticipation_s * std::max(0.0, speed_mps));
-  const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
-  if (allowed.speed_mps > limit) allowed = {limit, 0.0};
-  const double turned = std::fabs(geometry::WrapAngle(heading_rad - path_->At(place.d_m).heading_rad));
+  if (allowed.speed_mps > limit_mps) allowed = {limit_mps, 0.0};
+  const double turned = std::fabs(geometry::WrapAngle(heading_rad - place.heading_rad));
   if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi)
     allowed = {std::min(allowed.speed_mps, settings_.slowly_mps), 0.0};
   return allowed;
@@ -30,7 +30,7 @@ SpeedPlan::Allowed Autopilot::AllowedTo(const Way::Place& place, double speed_mp
 double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& place) {
   const double speed = view.own.speed_mps();
   const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
-  const SpeedPlan::Allowed allowed = AllowedTo(place, speed, view.own.heading_rad());
+  const SpeedPlan::Allowed allowed = AllowedTo(place, limit, speed, view.own.heading_rad());
   allowed_mps_ = allowed.speed_mps;
   double wanted = std::min(settings_.idm.acceleration_mps2,
                            allowed.slope_1ps * speed + (allowed_mps_ - speed) / settings_.tracking_s);
@@ -38,7 +38,7 @@ double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& p
   const double front = place.d_m + view.dimensions.front_m;
   const double middle = 0.5 * (view.dimensions.front_m - view.dimensions.rear_m);
   const double half_width = 0.5 * view.dimensions.width_m + settings_.side_margin_m;
-  leader_ = FindLeader(*path_, view.others, place.d_m + middle, front, half_width, settings_.range_m);
+  leader_ = FindLeader(*path_, view.others, place.d_m + middle, front, half_width, settings_.range_m, leader_hints_);
   if (leader_)
     wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
   if (const auto stop = light_stops_.Step(settings_.lights, view.lights, front, speed, settings_.anticipation_s))
@@ -51,7 +51,7 @@ Eigen::Vector2d Autopilot::TargetFrom(const Way::Place& place, double half_base_
   const double target_m = place.d_m - half_base_m + PreviewDistance(settings_.steering, speed_mps);
   Eigen::Vector2d target = path_->Position(std::min(target_m, path_->length_m()), 0.0).head<2>();
   if (target_m > path_->length_m()) {
-    const double end = path_->At(path_->length_m()).heading_rad;
+    const double end = path_->HeadingAt(path_->length_m());
     target += (target_m - path_->length_m()) * Eigen::Vector2d(std::cos(end), std::sin(end));
   }
   return target;
@@ -61,8 +61,9 @@ std::optional<Aim> Autopilot::AimOf(const CarMotion& car) const {
   const auto place = path_->Locate(car.p_WB_W.x(), car.p_WB_W.y(), car.p_WB_W.z());
   if (!place) return std::nullopt;
   const double sees_m = std::min(place->d_m + car.front_m + settings_.range_m, path_->length_m());
-  return Aim{AllowedTo(*place, car.speed_mps, car.heading_rad).speed_mps,
-             TargetFrom(*place, 0.5 * car.wheelbase_m, car.speed_mps), path_->At(place->d_m).heading_rad,
+  const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place->d_m);
+  return Aim{AllowedTo(*place, limit, car.speed_mps, car.heading_rad).speed_mps,
+             TargetFrom(*place, 0.5 * car.wheelbase_m, car.speed_mps), place->heading_rad,
              path_->Position(sees_m, 0.0).head<2>()};
 }
 
@@ -84,7 +85,7 @@ double Autopilot::SteeringWheel(const DriverView& view, const Way::Place& place,
 
 dynamics::Controls Autopilot::Step(const DriverView& view, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
-  const auto place = path_->Locate(view.own.p_WB_W.x(), view.own.p_WB_W.y(), view.own.p_WB_W.z());
+  const auto place = path_->Near(place_hint_, view.own.p_WB_W.x(), view.own.p_WB_W.y(), view.own.p_WB_W.z(), {});
   leader_.reset();
   double wanted = kStopHere_mps2;
   if (place) {

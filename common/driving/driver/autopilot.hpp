@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -90,7 +91,7 @@ class Autopilot {
 
  private:
   double WantedAcceleration(const DriverView& view, const Way::Place& place);
-  SpeedPlan::Allowed AllowedTo(const Way::Place& place, double speed_mps, double heading_rad) const;
+  SpeedPlan::Allowed AllowedTo(const Way::Place& place, double limit_mps, double speed_mps, double heading_rad) const;
   Eigen::Vector2d TargetFrom(const Way::Place& place, double half_base_m, double speed_mps) const;
   double SteeringWheel(const DriverView& view, const Way::Place& place, double dt_s);
 
@@ -102,6 +103,9 @@ class Autopilot {
   double steering_wheel_rad_ = 0.0;
   double allowed_mps_ = 0.0;
   std::optional<Leader> leader_;
+  // Where the car and the others were found last. They only save work, and are no part of the state.
+  std::size_t place_hint_ = 0;
+  LeaderHints leader_hints_;
 };
 
 }  // namespace rodeira::driver

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/plane.hpp"
@@ -15,7 +16,7 @@ constexpr double kBendHalfLength_m = 0.25;  // the curvature is measured over tw
 constexpr double kUnsaid_mps = 50.0 / 3.6;  // where a network says no limit
 constexpr double kNoLimit_mps = 130.0 / 3.6;
 constexpr double kBeyond_m = 1e-6;
-constexpr std::size_t kBlock = 32;
+constexpr double kReach_m = 2.0 * kNode_m;  // a place is looked for so far from its nearest node
 
 }  // namespace
 
@@ -23,6 +24,7 @@ RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs
     : network_(&network), legs_(std::move(legs)) {
   RODEIRA_ASSERT(!legs_.empty());
   double d = 0.0;
+  std::vector<Eigen::Vector3d> points_W;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg) {
     const network::LaneSection& section = network.Section(legs_[leg].lane);
     const double length = section.end_s_m - section.s_m;
@@ -37,23 +39,11 @@ RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs
                              MotionAt({leg, station(i - 0.5 + off)}).v_W.head<2>().norm();
         d += 0.5 * h * speed;
       }
-      nodes_.push_back({d, leg, station(i), MotionAt({leg, station(i)}).p_W});
+      nodes_.push_back({d, leg, station(i)});
+      points_W.push_back(MotionAt({leg, station(i)}).p_W);
     }
   }
-  MakeBoxes();
-}
-
-void RoutePath::MakeBoxes() {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Eigen::Vector3d& p_W = nodes_[i].p_W;
-    if (i % kBlock == 0) blocks_.push_back({p_W, p_W});
-    blocks_.back() = {blocks_.back().low_W.cwiseMin(p_W), blocks_.back().high_W.cwiseMax(p_W)};
-  }
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    if (i % kBlock == 0) groups_.push_back(blocks_[i]);
-    groups_.back() = {groups_.back().low_W.cwiseMin(blocks_[i].low_W),
-                      groups_.back().high_W.cwiseMax(blocks_[i].high_W)};
-  }
+  boxes_.emplace(std::move(points_W));
 }
 
 double RoutePath::Distance(std::size_t leg, double s_m) const {
@@ -130,6 +120,13 @@ LaneFrame RoutePath::At(double d_m) const {
   return frame;
 }
 
+Eigen::Vector3d RoutePath::MiddleAt(double d_m) const { return MotionAt(SpotAt(std::clamp(d_m, 0.0, length_m()))).p_W; }
+
+double RoutePath::HeadingAt(double d_m) const {
+  const Eigen::Vector3d ahead = Ahead(std::clamp(d_m, 0.0, length_m()));
+  return std::atan2(ahead.y(), ahead.x());
+}
+
 double RoutePath::VerticalCurvature_1pm(double d_m) const {
   const double low = std::max(0.0, d_m - 4.0 * kBendHalfLength_m),
                high = std::min(length_m(), d_m + 4.0 * kBendHalfLength_m);
@@ -145,72 +142,45 @@ Eigen::Vector3d RoutePath::Position(double d_m, double offset_m) const {
   return road.Surface(s, legs_[spot.leg].along ? middle + offset_m : middle - offset_m).p_W;
 }
 
-// A box is passed over if its nearest point is farther than the nearest node so far. Rounding keeps the order of sums
-// and squares, so that no node of such a box would be nearer.
-std::optional<std::size_t> RoutePath::NearestNode(const Eigen::Vector2d& p_W, std::optional<double> z_m) const {
-  const auto beyond = [](double low, double high, double x) { return std::max({0.0, low - x, x - high}); };
-  const auto on_level = [&](const Box& box) {
-    return !z_m || beyond(box.low_W.z(), box.high_W.z(), *z_m) <= network::Network::kLevel_m;
-  };
-  const auto squared_to = [&](const Box& box) {
-    const double dx = beyond(box.low_W.x(), box.high_W.x(), p_W.x()),
-                 dy = beyond(box.low_W.y(), box.high_W.y(), p_W.y());
-    return dx * dx + dy * dy;
-  };
-  std::optional<std::size_t> nearest;
-  double least = 0.0;
-  const auto look_at_block = [&](std::size_t block) {
-    const std::size_t end = std::min((block + 1) * kBlock, nodes_.size());
-    for (std::size_t i = block * kBlock; i < end; ++i) {
-      if (z_m && std::fabs(nodes_[i].p_W.z() - *z_m) > network::Network::kLevel_m) continue;
-      const double squared = (nodes_[i].p_W.head<2>() - p_W).squaredNorm();
-      if (!nearest || squared < least || (squared == least && i < *nearest)) nearest = i, least = squared;
-    }
-  };
-  const auto look_at_group = [&](std::size_t group) {
-    const std::size_t end = std::min((group + 1) * kBlock, blocks_.size());
-    for (std::size_t block = group * kBlock; block < end; ++block) {
-      if (on_level(blocks_[block]) && (!nearest || squared_to(blocks_[block]) <= least)) look_at_block(block);
-    }
-  };
-  // First where the nearest node probably lies.
-  std::size_t likely = 0;
-  for (std::size_t group = 1; group < groups_.size(); ++group)
-    if (squared_to(groups_[group]) < squared_to(groups_[likely])) likely = group;
-  std::size_t likely_block = likely * kBlock;
-  for (std::size_t block = likely_block; block < std::min((likely + 1) * kBlock, blocks_.size()); ++block)
-    if (squared_to(blocks_[block]) < squared_to(blocks_[likely_block])) likely_block = block;
-  look_at_block(likely_block);
-  for (std::size_t group = 0; group < groups_.size(); ++group) {
-    if (on_level(groups_[group]) && (!nearest || squared_to(groups_[group]) <= least)) look_at_group(group);
-  }
-  return nearest;
-}
-
 std::optional<Way::Place> RoutePath::Locate(double x_m, double y_m, std::optional<double> z_m) const {
   const Eigen::Vector2d p(x_m, y_m);
-  const auto nearest = NearestNode(p, z_m);
+  const auto nearest = boxes_->Nearest(p, z_m, network::Network::kLevel_m, boxes_->Likely(p));
+  return nearest ? PlaceNear(*nearest, p) : std::nullopt;
+}
+
+std::optional<Way::Place> RoutePath::Near(std::size_t& hint, double x_m, double y_m, std::optional<double> z_m,
+                                          const Range& range) const {
+  const Eigen::Vector2d p(x_m, y_m);
+  const auto nearest = boxes_->Nearest(p, z_m, network::Network::kLevel_m, hint);
   if (!nearest) return std::nullopt;
+  hint = *nearest;
   const double node_m = nodes_[*nearest].d_m;
+  if (node_m + kReach_m < range.from_m || node_m - kReach_m > range.to_m) return std::nullopt;
+  return PlaceNear(*nearest, p);
+}
+
+std::optional<Way::Place> RoutePath::PlaceNear(std::size_t node, const Eigen::Vector2d& p) const {
+  const double node_m = nodes_[node].d_m;
   double d = node_m;
-  Eigen::Vector2d away, ahead;
+  Eigen::Vector2d away, way, ahead;
   const auto look = [&] {
-    const Spot spot = SpotNear(*nearest, d);
+    const Spot spot = SpotNear(node, d);
     const Motion motion = MotionAt(spot);
     away = p - motion.p_W.head<2>();
-    ahead = AheadOf(spot, motion).head<2>().normalized();
+    way = AheadOf(spot, motion).head<2>();
+    ahead = way.normalized();
   };
   look();
   for (int turn = 0; turn < 4; ++turn) {
     const double before = d;
-    d = std::clamp(d + std::clamp(away.dot(ahead), -kNode_m, kNode_m), std::max(0.0, node_m - 2.0 * kNode_m),
-                   std::min(length_m(), node_m + 2.0 * kNode_m));
+    d = std::clamp(d + std::clamp(away.dot(ahead), -kNode_m, kNode_m), std::max(0.0, node_m - kReach_m),
+                   std::min(length_m(), node_m + kReach_m));
     if (d == before) break;
     look();
   }
   const double along = away.dot(ahead);
   if ((d == 0.0 && along < -kBeyond_m) || (d == length_m() && along > kBeyond_m)) return std::nullopt;
-  return Place{d, geometry::Cross(ahead, away)};
+  return Place{d, geometry::Cross(ahead, away), std::atan2(way.y(), way.x())};
 }
 
 }  // namespace rodeira::driver

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "common/driving/driver/footprint.hpp"
@@ -32,20 +34,37 @@ class Way {
   struct Place {
     double d_m = 0.0;
     double offset_m = 0.0;
+    double heading_rad = 0.0;  // of the middle at d, as At says
+  };
+  // Where a point is looked for: Near may find nothing if its d lies outside.
+  struct Range {
+    double from_m = -std::numeric_limits<double>::infinity();
+    double to_m = std::numeric_limits<double>::infinity();
   };
 
   virtual ~Way() = default;
   virtual double length_m() const = 0;
   virtual double SpeedLimit_mps(double d_m) const = 0;
   virtual LaneFrame At(double d_m) const = 0;
+  // p_W and heading_rad of At.
+  virtual Eigen::Vector3d MiddleAt(double d_m) const { return At(d_m).p_W; }
+  virtual double HeadingAt(double d_m) const { return At(d_m).heading_rad; }
   virtual double VerticalCurvature_1pm(double d_m) const = 0;
   // The surface at d, `offset_m` to the left of the middle as its traffic sees it.
   virtual Eigen::Vector3d Position(double d_m, double offset_m) const = 0;
   // Nothing beside the ends. The height tells levels apart where the way leads over itself.
   virtual std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const = 0;
 
+  // The same as Locate. `hint` only saves work: it is where the search begins, and is set to where it ended.
+  virtual std::optional<Place> Near(std::size_t& /*hint*/, double x_m, double y_m, std::optional<double> z_m,
+                                    const Range& /*range*/) const {
+    return Locate(x_m, y_m, z_m);
+  }
+
   // The stretch that a rectangle takes up, or nothing where its middle is beyond the ends.
   std::optional<LaneSpan> SpanOf(const Footprint& footprint) const;
+  // The same with the hint and range of Near.
+  std::optional<LaneSpan> SpanNear(std::size_t& hint, const Footprint& footprint, const Range& range) const;
 };
 
 }  // namespace rodeira::driver

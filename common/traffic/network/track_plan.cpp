@@ -74,7 +74,7 @@ std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::
   const lanes::CurvePoint at = curve().At(foot.d_m);
   const double along = (p - at.p_W.head<2>()).dot(at.ahead_W);
   if (std::fabs(along) > 1e-6 && (foot.d_m <= 0.0 || foot.d_m >= length_m())) return std::nullopt;
-  return Place{foot.d_m, foot.offset_m};
+  return Place{foot.d_m, foot.offset_m, std::atan2(at.ahead_W.y(), at.ahead_W.x())};
 }
 
 TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)

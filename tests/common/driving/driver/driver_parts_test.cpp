@@ -111,7 +111,10 @@ TEST(Leader, OnlyWhatIsAheadAndInTheWay) {
     const Eigen::Vector3d p = path.Position(d, offset);
     return Footprint{1, p.x(), p.y(), path.At(d).heading_rad + turn, speed, 4.0, 1.7};
   };
-  const auto find = [&](const std::vector<Footprint>& others) { return FindLeader(path, others, 100, 102, 1.1, 80); };
+  LeaderHints hints;
+  const auto find = [&](const std::vector<Footprint>& others) {
+    return FindLeader(path, others, 100, 102, 1.1, 80, hints);
+  };
   EXPECT_FALSE(find({at(90, 0, 0, 5), at(150, 3.0, 0, 5), at(250, 0, 0, 5)}).has_value());
   const auto nearest = find({at(150, 0, 0, 5), at(130, 0.5, 0, 7), at(170, 0, 0, 1)});
   ASSERT_TRUE(nearest.has_value());
