@@ -4,21 +4,18 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <utility>
+#include <string>
+
+#include "common/core/base/installation.hpp"
+#include "launch/rodeira/run/terminal_settings.hpp"
 
 namespace rodeira::cli {
 namespace {
-
-bool Same(const termios& a, const termios& b) {
-  return a.c_lflag == b.c_lflag && a.c_iflag == b.c_iflag && a.c_cc[VMIN] == b.c_cc[VMIN] &&
-         a.c_cc[VTIME] == b.c_cc[VTIME];
-}
 
 // For the handler of Ctrl-Z alone.
 int g_file = -1;
@@ -65,26 +62,30 @@ TerminalKeys::~TerminalKeys() {
 
 bool TerminalKeys::IsForeground() const { return ::tcgetpgrp(file_) == ::getpgrp(); }
 
-// Only where the terminal is as this process has set it: a shell that has taken it over is not disturbed.
+// A program of its own, which has no thread, lock or file of this process: the terminal as standard output, our end of
+// a pipe as standard input. In a group of its own: the terminal's signals are not for it.
 void TerminalKeys::Guard() {
   int pipe[2] = {-1, -1};
   if (::pipe2(pipe, O_CLOEXEC) != 0) return;
-  guardian_ = ::fork();
-  if (guardian_ == 0) {
-    ::setpgid(0, 0);  // the terminal's signals are not for it
-    ::prctl(PR_SET_NAME, "rodeira-keys");
-    ::close(pipe[1]);
-    for (const int number : {SIGTTOU, SIGHUP, SIGINT, SIGTERM, SIGQUIT}) ::signal(number, SIG_IGN);
-    char nothing = 0;
-    while (::read(pipe[0], &nothing, 1) < 0 && errno == EINTR) {
-    }
-    termios now{};
-    if (::tcgetattr(file_, &now) == 0 && Same(now, keys_)) ::tcsetattr(file_, TCSANOW, &before_);
-    ::_exit(0);
-  }
+  const std::string program = base::FindProgram("rodeira-keys").string(), keys = SettingsText(keys_),
+                    before = SettingsText(before_);
+  const char* arguments[] = {program.c_str(), keys.c_str(), before.c_str(), nullptr};
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawn_file_actions_adddup2(&files, file_, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&files, pipe[0], STDIN_FILENO);
+  ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int problem =
+      ::posix_spawn(&guardian_, program.c_str(), &files, &attributes, const_cast<char* const*>(arguments), environ);
+  ::posix_spawn_file_actions_destroy(&files);
+  ::posix_spawnattr_destroy(&attributes);
   ::close(pipe[0]);
-  if (guardian_ > 0) ::setpgid(guardian_, guardian_);  // here too: a Ctrl-C may come before the child has got so far
-  if (guardian_ < 0) {
+  if (problem != 0) {
+    guardian_ = -1;
     ::close(pipe[1]);
     return;
   }

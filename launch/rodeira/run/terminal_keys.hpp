@@ -10,11 +10,11 @@
 namespace rodeira::cli {
 
 // Single keys of a terminal, without echo and without waiting for Enter. Ctrl-C, Ctrl-Z and the rest keep their
-// meaning. The terminal is put back as it was by the destructor, and by a guardian process however this process ends
-// (kill -9 too).
+// meaning. The terminal is put back as it was by the destructor, and by a guardian, the program rodeira-keys, however
+// this process ends (kill -9 too).
 class TerminalKeys {
  public:
-  // Null where `file` is no terminal. Call it before there are threads.
+  // Null where `file` is no terminal.
   static std::unique_ptr<TerminalKeys> Open(int file);
   ~TerminalKeys();
   TerminalKeys(const TerminalKeys&) = delete;

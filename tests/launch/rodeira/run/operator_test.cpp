@@ -12,7 +12,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -122,6 +125,31 @@ TEST_F(Terminal, KilledItIsPutBackTooByTheGuardian) {
   Type("k");
   EXPECT_EQ(ReadUntil("]"), "k[signal 9]");
   EXPECT_TRUE(SoonEchoes());
+}
+
+// No copy of this process: another thread could hold a lock at that moment.
+TEST_F(Terminal, TheGuardianIsAProgramOfItsOwn) {
+  EXPECT_EQ(ReadUntil("up"), "up");
+  std::vector<std::string> children;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::error_code none;
+    const std::string program = std::filesystem::read_symlink(entry.path() / "exe", none).filename().string();
+    std::ifstream stat(entry.path() / "stat");
+    std::string text;
+    std::getline(stat, text);
+    const auto behind_name = text.rfind(") ");
+    pid_t parent = 0;
+    char state = 0;
+    if (behind_name == std::string::npos) continue;
+    std::istringstream(text.substr(behind_name + 2)) >> state >> parent;
+    std::ifstream stat_of_parent("/proc/" + std::to_string(parent) + "/stat");
+    std::getline(stat_of_parent, text);
+    pid_t grandparent = 0;
+    if (text.rfind(") ") == std::string::npos) continue;
+    std::istringstream(text.substr(text.rfind(") ") + 2)) >> state >> grandparent;
+    if (grandparent == leader_) children.push_back(program);
+  }
+  EXPECT_EQ(children, std::vector<std::string>{"rodeira-keys"});
 }
 
 TEST_F(Terminal, CtrlCKeepsItsMeaning) {
