@@ -89,6 +89,30 @@ std::string EntryOf(const record::TextMap& map, const char* key) {
   return found == map.end() ? std::string() : found->second;
 }
 
+base::Status TakeEvent(const decode::Type& type, const record::Message& message, DriveEvent::Kind kind,
+                       std::vector<DriveEvent>& events) {
+  const auto entries = decode::Flatten(type, message.data);
+  if (!entries) return entries.error();
+  std::string remark;
+  DriveEvent event{kind, static_cast<double>(message.log_time_ns) * 1e-9, {}, {}};
+  for (const decode::Entry& entry : entries.value()) {
+    const auto* text = std::get_if<std::string>(&entry.value);
+    const auto* whole = std::get_if<std::int64_t>(&entry.value);
+    if (whole != nullptr && (entry.path == "time_ns" || entry.path == "header.time_ns"))
+      event.time_s = static_cast<double>(*whole) * 1e-9;
+    if (text == nullptr) continue;
+    if (entry.path == "kind") remark = *text;
+    if (entry.path == "text") event.name = *text;
+    if (entry.path.ends_with("].name")) event.name = *text;
+    if (entry.path.ends_with("].argument")) {
+      event.argument = *text;
+      events.push_back(event);
+    }
+  }
+  if (kind == DriveEvent::Kind::kMark && remark == "mark") events.push_back(event);
+  return {};
+}
+
 // The channels of a recording that a drive is made of.
 class DriveChannels {
  public:
@@ -112,8 +136,6 @@ class DriveChannels {
   void TakeVehicle(std::size_t k, const Numbers& numbers, DriveBuilder& builder);
   base::Status TakeTraffic(std::size_t k, const Numbers& numbers, const record::Message& message,
                            DriveBuilder& builder);
-  base::Status TakeEvent(const decode::Type& type, const record::Message& message, DriveEvent::Kind kind,
-                         std::vector<DriveEvent>& events) const;
 
   std::int64_t base_step_ns_ = 0, grid_steps_ = 0;
   std::string subject_;
@@ -253,30 +275,6 @@ base::Status DriveChannels::TakeTraffic(std::size_t k, const Numbers& numbers, c
   return {};
 }
 
-base::Status DriveChannels::TakeEvent(const decode::Type& type, const record::Message& message, DriveEvent::Kind kind,
-                                      std::vector<DriveEvent>& events) const {
-  const auto entries = decode::Flatten(type, message.data);
-  if (!entries) return entries.error();
-  std::string remark;
-  DriveEvent event{kind, static_cast<double>(message.log_time_ns) * 1e-9, {}, {}};
-  for (const decode::Entry& entry : entries.value()) {
-    const auto* text = std::get_if<std::string>(&entry.value);
-    const auto* whole = std::get_if<std::int64_t>(&entry.value);
-    if (whole != nullptr && (entry.path == "time_ns" || entry.path == "header.time_ns"))
-      event.time_s = static_cast<double>(*whole) * 1e-9;
-    if (text == nullptr) continue;
-    if (entry.path == "kind") remark = *text;
-    if (entry.path == "text") event.name = *text;
-    if (entry.path.ends_with("].name")) event.name = *text;
-    if (entry.path.ends_with("].argument")) {
-      event.argument = *text;
-      events.push_back(event);
-    }
-  }
-  if (kind == DriveEvent::Kind::kMark && remark == "mark") events.push_back(event);
-  return {};
-}
-
 base::Status DriveChannels::Take(const record::Message& message, DriveBuilder& builder,
                                  std::vector<DriveEvent>& events) {
   if (const auto vehicle = vehicles_.find(message.channel); vehicle != vehicles_.end()) {
@@ -332,6 +330,34 @@ base::Result<DriveReading> ReadDrive(const record::McapReader& reader, const net
   reading.drive.subject = channels.subject();
   std::ranges::stable_sort(reading.events, {}, &DriveEvent::time_s);
   return reading;
+}
+
+base::Result<std::vector<DriveEvent>> ReadEvents(const record::McapReader& reader, const decode::Aliases& aliases) {
+  std::map<record::ChannelId, std::pair<decode::TypePtr, DriveEvent::Kind>> channels;
+  record::Query query;
+  query.channels.emplace();
+  for (const auto& [id, channel] : reader.channels()) {
+    const std::string topic(aliases.Topic(channel.topic));
+    const auto schema = reader.schemas().find(channel.schema);
+    if ((topic != kEventTopic && topic != kRemarkTopic) || schema == reader.schemas().end()) continue;
+    const auto type = decode::ReadType(schema->second.text, schema->second.name);
+    if (!type) return type.error().In("topic " + topic);
+    const auto kind = topic == kEventTopic ? DriveEvent::Kind::kScenario : DriveEvent::Kind::kMark;
+    channels.emplace(id, std::pair(aliases.Renamed(type.value()), kind));
+    query.channels->insert(id);
+  }
+  std::vector<DriveEvent> events;
+  if (channels.empty()) return events;
+  auto cursor = reader.Messages(query);
+  while (true) {
+    const auto message = cursor.Next();
+    if (!message) return message.error();
+    if (!message.value()) break;
+    const auto& [type, kind] = channels.at(message.value()->channel);
+    if (auto status = TakeEvent(*type, *message.value(), kind, events); !status) return status.error();
+  }
+  std::ranges::stable_sort(events, {}, &DriveEvent::time_s);
+  return events;
 }
 
 }  // namespace rodeira::measures

@@ -42,4 +42,8 @@ struct DriveReading {
 base::Result<DriveReading> ReadDrive(const record::McapReader& reader, const network::Network* network,
                                      const DriveQuery& query);
 
+// The marks and events of a recording alone, by time. Wrong input where one of their messages is not what its schema
+// says, or is damaged.
+base::Result<std::vector<DriveEvent>> ReadEvents(const record::McapReader& reader, const decode::Aliases& aliases);
+
 }  // namespace rodeira::measures

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/data/csv/export.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
-#include <system_error>
 #include <utility>
 
-#include "common/core/base/files.hpp"
-#include "common/core/base/put_in_place.hpp"
 #include "common/core/base/suggest.hpp"
-#include "common/data/csv/table_writer.hpp"
+#include "common/data/csv/csv_tables.hpp"
+#include "common/data/csv/mat_file.hpp"
+#include "common/data/csv/mat_table.hpp"
+#include "common/data/csv/workplace.hpp"
 #include "common/data/decode/idl_reader.hpp"
 
 namespace rodeira::csv {
@@ -37,50 +33,6 @@ struct Table {
   std::unique_ptr<TableWriter> writer;
 };
 
-// A folder that becomes `target` at the end, and is gone where that does not come.
-class Workplace {
- public:
-  explicit Workplace(fs::path target) : target_(std::move(target)) {}
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-  ~Workplace() {
-    std::error_code problem;
-    if (!path_.empty()) fs::remove_all(path_, problem);
-  }
-  base::Status Begin() {
-    std::error_code problem;
-    if (fs::exists(fs::symlink_status(target_, problem))) {
-      return base::WrongInput("file.exists", "the folder for the tables is there already; another name was expected",
-                              target_.string());
-    }
-    const fs::path beside = target_.string() + fmt::format(".{}.part", ::getpid());
-    if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), problem);
-    if (!fs::create_directory(beside, problem)) {
-      return base::Failed("table.cannot_write",
-                          fmt::format("the folder for the tables cannot be made: {}", problem.message()),
-                          target_.string());
-    }
-    path_ = beside;
-    return {};
-  }
-  base::Status Finish() {
-    if (auto status = base::SyncFolder(path_); !status) return status.error().WithContext(target_.string());
-    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
-      const std::string what =
-          fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
-      return base::Failed("table.cannot_write", what, target_.string());
-    }
-    path_.clear();
-    base::SyncName(target_);
-    return {};
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path target_;
-  fs::path path_;
-};
-
 // "rodeira/vehicle_state" is "vehicle_state"; other characters than letters, digits, '-', '_' and '.' become '_'.
 std::string FileName(std::string_view topic, std::set<std::string>& taken) {
   if (topic.starts_with("rodeira/")) topic.remove_prefix(8);
@@ -92,16 +44,21 @@ std::string FileName(std::string_view topic, std::set<std::string>& taken) {
   if (name.empty() || name[0] == '.') name.insert(0, "_");
   std::string free = name;
   for (int number = 2; !taken.insert(free).second; ++number) free = fmt::format("{}_{}", name, number);
-  return free + ".csv";
+  return free;
 }
 
 class Exporter {
  public:
-  Exporter(const record::McapReader& reader, const fs::path& folder, const decode::Aliases& aliases,
+  Exporter(const record::McapReader& reader, const ExportTarget& target, const decode::Aliases& aliases,
            const ExportProgress& progress, const Selection& selection)
-      : reader_(reader), aliases_(aliases), progress_(progress), selection_(selection), workplace_(folder) {}
+      : reader_(reader),
+        form_(target.form),
+        aliases_(aliases),
+        progress_(progress),
+        selection_(selection),
+        workplace_(target.path) {}
 
-  base::Result<ExportReport> Run() {
+  base::Result<ExportReport> Run(std::span<const PlainTable> more) {
     const auto times = TimesOf(selection_);
     if (!times) return times.error();
     if (auto status = workplace_.Begin(); !status) return status.error();
@@ -111,16 +68,61 @@ class Exporter {
     }
     if (auto status = CheckNames(); !status) return status.error();
     if (auto status = Copy(times.value()); !status) return status.error();
-    for (const auto& table : tables_) {
-      if (auto status = table->writer->Close(); !status) return status.error();
-      const TableWriter& writer = *table->writer;
-      report_.tables.push_back({table->topic, table->file, writer.messages(), writer.rows(), writer.written_bytes()});
-    }
-    if (auto status = workplace_.Finish(); !status) return status.error();
+    if (auto status = form_ == Form::kMat ? WriteMat(more) : WriteCsv(more); !status) return status.error();
     return std::move(report_);
   }
 
  private:
+  using Form = ExportTarget::Form;
+  static constexpr const char* kMatName = "tables.mat";
+
+  base::Status WriteCsv(std::span<const PlainTable> more) {
+    for (const auto& table : tables_) {
+      if (auto status = table->writer->Close(); !status) return status;
+      const TableWriter& writer = *table->writer;
+      report_.tables.push_back({table->topic, table->file, writer.messages(), writer.rows(), writer.written_bytes()});
+    }
+    for (const PlainTable& table : more) {
+      const std::string name = FileName(table.name, names_) + ".csv";
+      auto file = CsvFile::Create(workplace_.path() / name);
+      if (!file) return file.error();
+      const auto rows = WritePlainTable(table, form_ == Form::kLong, file.value());
+      if (!rows) return rows.error();
+      if (auto status = file.value().Close(); !status) return status;
+      report_.tables.push_back({"", name, table.rows(), rows.value(), file.value().written_bytes()});
+    }
+    return workplace_.Finish();
+  }
+
+  base::Status WriteMat(std::span<const PlainTable> more) {
+    auto file = MatFile::Create(workplace_.path() / kMatName);
+    if (!file) return file.error();
+    for (const auto& table : tables_) {
+      const auto& writer = dynamic_cast<const MatTable&>(*table->writer);
+      if (auto status = file.value().Add(writer.table()); !status) return status;
+      report_.tables.push_back({table->topic, table->file, writer.messages(), writer.rows(), writer.written_bytes()});
+    }
+    for (const PlainTable& table : more) {
+      if (auto status = file.value().Add(table); !status) return status;
+      const std::uint64_t bytes = kMatBytesPerNumber * table.rows() * table.columns.size();
+      report_.tables.push_back({"", table.name, table.rows(), table.rows(), bytes});
+    }
+    if (auto status = file.value().Close(); !status) return status;
+    return workplace_.Finish(kMatName);
+  }
+
+  base::Result<std::unique_ptr<TableWriter>> MakeWriter(const Table& table, Layout layout) const {
+    if (form_ == Form::kMat)
+      return std::unique_ptr<TableWriter>(std::make_unique<MatTable>(*table.type, std::move(layout), table.file));
+    auto file = CsvFile::Create(workplace_.path() / table.file);
+    if (!file) return file.error();
+    if (form_ == Form::kLong)
+      return std::unique_ptr<TableWriter>(
+          std::make_unique<LongTable>(*table.type, std::move(layout), std::move(file).value()));
+    return std::unique_ptr<TableWriter>(
+        std::make_unique<WideTable>(*table.type, std::move(layout), std::move(file).value()));
+  }
+
   // Channels of one topic and schema share a table.
   base::Status Open(const record::Channel& channel) {
     const std::string topic(aliases_.Topic(channel.topic));
@@ -150,12 +152,11 @@ class Exporter {
     if (KeepColumns(selection_.columns, layout.value()) == 0 && !selection_.columns.empty()) return {};
     auto table = std::make_shared<Table>();
     table->topic = topic;
-    table->file = FileName(table->topic, names_);
+    table->file = FileName(table->topic, names_) + (form_ == Form::kMat ? "" : ".csv");
     table->type = type;
-    auto file = CsvFile::Create(workplace_.path() / table->file);
-    if (!file) return file.error();
-    table->writer = std::make_unique<TableWriter>(*table->type, std::move(layout).value(), std::move(file).value());
-    table->writer->PutHeaderLine();
+    auto writer = MakeWriter(*table, std::move(layout).value());
+    if (!writer) return writer.error();
+    table->writer = std::move(writer).value();
     tables_.push_back(table);
     table_of_.emplace_back(std::pair(channel.topic, channel.schema), table);
     of_channel_[channel.id] = table;
@@ -227,6 +228,7 @@ class Exporter {
   }
 
   const record::McapReader& reader_;
+  Form form_;
   const decode::Aliases& aliases_;
   const ExportProgress& progress_;
   const Selection& selection_;
@@ -242,12 +244,19 @@ class Exporter {
 
 }  // namespace
 
+base::Result<ExportReport> ExportTables(const record::McapReader& reader, const ExportTarget& target,
+                                        const decode::Aliases& aliases, const ExportProgress& progress,
+                                        const Selection& selection, std::span<const PlainTable> more) {
+  ExportTarget plain = target;
+  plain.path = target.path.lexically_normal();  // "tables/" names the folder "tables"
+  if (!plain.path.has_filename()) plain.path = plain.path.parent_path();
+  return Exporter(reader, plain, aliases, progress, selection).Run(more);
+}
+
 base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder,
                                      const decode::Aliases& aliases, const ExportProgress& progress,
                                      const Selection& selection) {
-  fs::path plain = folder.lexically_normal();  // "tables/" names the folder "tables"
-  if (!plain.has_filename()) plain = plain.parent_path();
-  return Exporter(reader, plain, aliases, progress, selection).Run();
+  return ExportTables(reader, {ExportTarget::Form::kWide, folder}, aliases, progress, selection, {});
 }
 
 }  // namespace rodeira::csv

@@ -55,6 +55,12 @@ base::Result<record::Query> TimesOf(const Selection& selection) {
   return query;
 }
 
+bool Holds(const Selection& selection, double time_s) {
+  const std::uint64_t time_ns = Nanoseconds(time_s);
+  return (!selection.from_s || time_ns >= Nanoseconds(*selection.from_s)) &&
+         (!selection.to_s || time_ns < Nanoseconds(*selection.to_s));
+}
+
 std::string_view ShortTopic(std::string_view topic) {
   if (topic.starts_with(kOwnTopics)) topic.remove_prefix(kOwnTopics.size());
   return topic;

@@ -24,6 +24,8 @@ struct Selection {
   std::optional<double> to_s;                 // before this time
 };
 
+// Whether a time in seconds is chosen.
+bool Holds(const Selection& selection, double time_s);
 // The query for these times, of all channels. Wrong input where no time is left.
 base::Result<record::Query> TimesOf(const Selection& selection);
 

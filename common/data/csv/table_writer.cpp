@@ -3,22 +3,10 @@
 
 #include <utility>
 
-#include "common/core/base/append_format.hpp"
-
 namespace rodeira::csv {
 namespace {
 
 using decode::Value;
-
-void AppendValue(const Value& value, std::string& out) {
-  if (const auto* number = std::get_if<double>(&value); number != nullptr && *number == *number) {
-    base::AppendFormat(out, "{}", *number);  // most values are: no text of their own
-  } else if (const auto* text = std::get_if<std::string>(&value)) {
-    AppendCell(*text, out);
-  } else {
-    out += decode::Text(value);
-  }
-}
 
 // A text within a list: in quotes, so that a semicolon in it separates nothing.
 std::string Quoted(const std::string& text) {
@@ -34,8 +22,11 @@ bool IsRowUse(Slot::Use use) { return use == Slot::Use::kRowCell || use == Slot:
 
 }  // namespace
 
-TableWriter::TableWriter(const decode::Type& type, Layout layout, CsvFile file)
-    : type_(type), layout_(std::move(layout)), file_(std::move(file)) {
+bool IsWritten(const Slot& slot) {
+  return slot.use == Slot::Use::kCell || slot.use == Slot::Use::kList || IsRowUse(slot.use);
+}
+
+TableWriter::TableWriter(const decode::Type& type, Layout layout) : type_(type), layout_(std::move(layout)) {
   if (layout_.rows.empty()) return;
   // The row sequence's slots stand together; those that are dropped ("end") belong to it where they lie in its path.
   const std::string prefix = layout_.rows + ".";
@@ -46,43 +37,19 @@ TableWriter::TableWriter(const decode::Type& type, Layout layout, CsvFile file)
   while (row_slot_ + row_slots_ < layout_.slots.size() && belongs(layout_.slots[row_slot_ + row_slots_])) ++row_slots_;
 }
 
-void TableWriter::PutHeaderLine() {
-  std::string& out = file_.buffer();
-  out += layout_.has_header ? "time_s,step,source" : "time_s,source";
-  for (const Slot& slot : layout_.slots) {
-    if (slot.use != Slot::Use::kCell && slot.use != Slot::Use::kList && !IsRowUse(slot.use)) continue;
-    out += ',';
-    AppendCell(slot.name.empty() ? "value" : slot.name, out);
-  }
-  out += layout_.has_header && layout_.writes_digest ? ",state_digest\n" : "\n";
-}
-
 base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source) {
   slot_ = 0;
   in_rows_ = false;
   list_depth_ = 0;
   lists_open_ = 0;
-  before_.clear();
-  row_cells_.clear();
-  after_.clear();
   time_ns_ = static_cast<std::int64_t>(log_time_ns);
+  StartMessage();
   if (auto status = decode::Walk(type_, payload, *this); !status) return status;
+  const auto rows = EndMessage(source);
+  if (!rows) return rows.error();
   ++messages_;
-  std::string& out = file_.buffer();
-  const std::size_t rows = layout_.rows.empty() ? 1 : row_cells_.size();
-  for (std::size_t row = 0; row < rows; ++row) {
-    AppendSeconds(time_ns_, out);
-    out += ',';
-    if (layout_.has_header) base::AppendFormat(out, "{},", step_);
-    AppendCell(source, out);
-    out += before_;
-    if (!layout_.rows.empty()) out += row_cells_[row];
-    out += after_;
-    if (layout_.has_header && layout_.writes_digest) base::AppendFormat(out, ",{:016x}", digest_);
-    out += '\n';
-    ++rows_;
-  }
-  return file_.Drain();
+  rows_ += rows.value();
+  return {};
 }
 
 void TableWriter::OnValue(const decode::Path& path, Value value) {
@@ -102,11 +69,8 @@ void TableWriter::OnValue(const decode::Path& path, Value value) {
     case Slot::Use::kIncarnation:
     case Slot::Use::kDropped:
       break;
-    default: {
-      std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
-      cells += ',';
-      AppendValue(value, cells);
-    }
+    default:
+      PutValue(PartNow(), layout_.slots[slot_], value);
   }
   ++slot_;
   EndRow();
@@ -120,7 +84,7 @@ void TableWriter::OnSequence(const decode::Path& path, std::uint64_t length) {
   const bool makes_rows = !in_rows_ && row_slots_ > 0 && slot_ == row_slot_ && !layout_.rows.empty();
   if (makes_rows) {
     in_rows_ = length > 0;
-    if (in_rows_) row_cells_.emplace_back();
+    if (in_rows_) StartRow();
     return;
   }
   list_depth_ = path.size();
@@ -132,17 +96,13 @@ void TableWriter::OnSequenceEnd(const decode::Path&) {
   if (list_depth_ > 0) {
     if (--lists_open_ > 0) return;
     list_depth_ = 0;
-    if (layout_.slots[slot_].use != Slot::Use::kDropped) {
-      std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
-      cells += ',';
-      AppendCell(list_, cells);
-    }
+    if (layout_.slots[slot_].use != Slot::Use::kDropped) PutList(PartNow(), layout_.slots[slot_], list_);
     ++slot_;
     EndRow();
     return;
   }
   // Behind the last element a row was begun that does not come.
-  if (in_rows_) row_cells_.pop_back();
+  if (in_rows_) DropRow();
   in_rows_ = false;
   slot_ = row_slot_ + row_slots_;
 }
@@ -158,7 +118,7 @@ void TableWriter::AddToList(const decode::Path& path, const Value& value) {
 void TableWriter::EndRow() {
   if (!in_rows_ || slot_ < row_slot_ + row_slots_) return;
   slot_ = row_slot_;
-  row_cells_.emplace_back();
+  StartRow();
 }
 
 }  // namespace rodeira::csv

@@ -5,43 +5,56 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "common/data/csv/csv_file.hpp"
 #include "common/data/csv/layout.hpp"
 #include "common/data/decode/walk.hpp"
 
 namespace rodeira::csv {
 
-// Turns the messages of one type into lines.
-class TableWriter final : private decode::Visitor {
+// Turns the messages of one type into rows. A subclass says what becomes of the values.
+class TableWriter : private decode::Visitor {
  public:
   // `type` outlives it.
-  TableWriter(const decode::Type& type, Layout layout, CsvFile file);
+  TableWriter(const decode::Type& type, Layout layout);
+  ~TableWriter() override = default;
 
-  // time_s, step, source, the values, state_digest.
-  void PutHeaderLine();
   // Appends the message's rows; `log_time_ns` and `source` (a name) stand for what a message without a header does not
   // say. Wrong input where the payload is no such message: then no row of it is written.
   base::Status Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source);
-  base::Status Close() { return file_.Close(); }
+  virtual base::Status Close() = 0;
 
   std::uint64_t messages() const { return messages_; }
   std::uint64_t rows() const { return rows_; }
-  std::uint64_t written_bytes() const { return file_.written_bytes(); }
+  virtual std::uint64_t written_bytes() const = 0;
+
+ protected:
+  // Values lie in the rows of the row sequence, or before or behind it.
+  enum class Part { kBefore, kRow, kAfter };
+  virtual void StartMessage() = 0;
+  virtual void PutValue(Part part, const Slot& slot, const decode::Value& value) = 0;
+  virtual void PutList(Part part, const Slot& slot, const std::string& list) = 0;
+  virtual void StartRow() = 0;
+  virtual void DropRow() = 0;  // the newest row, which has no values
+  // The message is whole: its rows are written. Returns how many there are.
+  virtual base::Result<std::uint64_t> EndMessage(std::string_view source) = 0;
+
+  const Layout& layout() const { return layout_; }
+  // Of the message's header.
+  std::int64_t step() const { return step_; }
+  std::int64_t time_ns() const { return time_ns_; }
+  std::uint64_t digest() const { return digest_; }
 
  private:
   void OnValue(const decode::Path& path, decode::Value value) override;
   void OnSequence(const decode::Path& path, std::uint64_t length) override;
   void OnSequenceEnd(const decode::Path& path) override;
-  void StartCell(bool in_row);
+  Part PartNow() const { return in_rows_ ? Part::kRow : slot_ < row_slot_ ? Part::kBefore : Part::kAfter; }
   void AddToList(const decode::Path& path, const decode::Value& value);
   // Slots are gone through again for each element of the row sequence.
   void EndRow();
 
   const decode::Type& type_;
   Layout layout_;
-  CsvFile file_;
   std::uint64_t messages_ = 0;
   std::uint64_t rows_ = 0;
 
@@ -56,9 +69,9 @@ class TableWriter final : private decode::Visitor {
   std::int64_t step_ = 0;
   std::int64_t time_ns_ = 0;
   std::uint64_t digest_ = 0;
-  std::string before_;                  // cells before the rows, each with a comma in front
-  std::vector<std::string> row_cells_;  // of each row
-  std::string after_;
 };
+
+// The columns of a layout, in the order in which they are written.
+bool IsWritten(const Slot& slot);
 
 }  // namespace rodeira::csv

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 namespace rodeira::cli {
 
-// `rodeira export --csv DIR FILE.mcap`
+// `rodeira export --csv DIR FILE.mcap`, `rodeira export --mat FILE.mat FILE.mcap`
 struct ExportOptions {
   std::string recording;
-  std::string csv;     // the folder
+  std::string csv;  // the folder
+  std::string mat;  // the file; one of both is named
+  bool long_format = false;
   std::string topics;  // separated by commas, as the columns; empty: all
   std::string columns;
   double rate_hz = 0.0;  // 0: every sample
-  std::optional<double> from_s;
-  std::optional<double> to_s;
+  std::string from, to;  // points in time (measures::ParseTimePoint); `to` may be "+SECONDS"; empty: no limit
+  bool marks = false;    // a table of marks and events
+  bool derived = false;  // a table of lanes, gaps and the like, rebuilt from the recording
+  std::string subject;   // of the derived table: vehicle node, or agent:ID; empty: the first vehicle
   bool quiet = false;
 };
 

@@ -10,15 +10,27 @@ namespace rodeira::cli {
 
 void AddExport(CLI::App& app, ChosenCommand& chosen) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
-  tables->add_option("--csv", options->csv, "new folder, one CSV file a topic")->required();
+  CLI::App* tables = app.add_subcommand("export", "write a recording as tables: CSV, or a .mat file");
+  CLI::Option* csv = tables->add_option("--csv", options->csv, "new folder, one CSV file a topic");
+  CLI::Option* mat =
+      tables->add_option("--mat", options->mat, "new .mat file for MATLAB, Octave and SciPy, a structure a topic");
+  mat->excludes(csv);
+  tables->add_flag("--long", options->long_format, "CSV with a row a value: time, source, column, value")
+      ->excludes(mat);
   tables->add_option("--topics", options->topics, "topics, separated by commas; default: all");
   tables->add_option("--columns", options->columns,
                      "columns or groups, separated by commas (position_w_m,wheels.load_n); default: all");
   tables->add_option("--rate", options->rate_hz, "samples a second of each source, at most; events are all written")
       ->check(Above0("a positive number of samples a second"));
-  tables->add_option("--from", options->from_s, "simulated seconds; from this time on")->check(From0());
-  tables->add_option("--to", options->to_s, "simulated seconds; before this time")->check(From0());
+  tables->add_option("--from", options->from, "from this time on: simulated seconds, mark:TEXT or event:NAME");
+  tables->add_option("--to", options->to, "before this time; +SECONDS: so long after --from");
+  tables->add_flag("--marks", options->marks, "also a table of marks and events");
+  CLI::Option* derived =
+      tables->add_flag("--derived", options->derived, "also a table of lane, gap, TTC ... of one road user at 100 Hz");
+  tables
+      ->add_option("--subject", options->subject,
+                   "of --derived: vehicle node, or agent:ID; otherwise the first vehicle")
+      ->needs(derived);
   tables->add_option("FILE.mcap", options->recording, "recording")->required();
   tables->add_flag("--quiet", options->quiet, "no progress, no list");
   chosen.When(*tables, [options] { return Export(*options); });

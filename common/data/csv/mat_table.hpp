@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/data/csv/plain_table.hpp"
+#include "common/data/csv/table_writer.hpp"
+
+namespace rodeira::csv {
+
+// Collects the rows of a topic as columns in memory: numbers and truth as double, texts, octets and lists as texts,
+// state_digest as a whole number. Refused where they would be too large for a variable of a .mat file.
+class MatTable final : public TableWriter {
+ public:
+  // `type` outlives it.
+  MatTable(const decode::Type& type, Layout layout, std::string name);
+  base::Status Close() override { return {}; }
+  std::uint64_t written_bytes() const override;
+  const PlainTable& table() const { return table_; }
+
+ private:
+  using Cell = std::variant<double, std::string>;
+  void StartMessage() override;
+  void PutValue(Part part, const Slot& slot, const decode::Value& value) override;
+  void PutList(Part part, const Slot& slot, const std::string& list) override;
+  void StartRow() override { row_cells_.emplace_back(); }
+  void DropRow() override { row_cells_.pop_back(); }
+  base::Result<std::uint64_t> EndMessage(std::string_view source) override;
+  std::vector<Cell>& CellsOf(Part part);
+  void AddCells(const std::vector<Cell>& cells, std::size_t& column);
+
+  PlainTable table_;
+  std::size_t values_ = 0;  // the first column of the values
+  std::vector<Cell> before_, after_;
+  std::vector<std::vector<Cell>> row_cells_;
+};
+
+}  // namespace rodeira::csv
