@@ -94,6 +94,7 @@ base::Result<IntervalSpec> ParseInterval(std::string_view text) {
     auto condition = ParseCondition(text.substr(equals + 1 + kWhile.size()));
     if (!condition) return condition.error().In(fmt::format("interval '{}'", spec.name));
     spec.condition = std::move(condition).value();
+    if (auto status = CheckInterval(spec); !status) return status.error();
     return spec;
   }
   if (equals == std::string_view::npos || equals == 0 || dots == std::string_view::npos || dots < equals) {
@@ -124,6 +125,11 @@ base::Result<IntervalSpec> ParseInterval(std::string_view text) {
 }
 
 base::Status CheckInterval(const IntervalSpec& spec) {
+  if (const auto hash = spec.name.rfind('#'); hash != std::string::npos && SecondsIn(spec.name.substr(hash + 1)))
+    return base::WrongInput("measure.wrong_interval",
+                            fmt::format("an interval is named '{}'; a name without a number behind '#' was expected, "
+                                        "which numbers the times of a condition",
+                                        spec.name));
   const bool times = spec.from.kind == TimePoint::Kind::kSeconds && spec.to.kind == TimePoint::Kind::kSeconds;
   const bool empty = spec.for_s
                          ? !(*spec.for_s > 0.0)

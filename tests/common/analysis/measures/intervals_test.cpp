@@ -61,13 +61,22 @@ TEST(Intervals, WhatIsNotThereHasAReason) {
 }
 
 TEST(Intervals, WrongTextsAreRefused) {
-  for (const char* text : {"", "a", "a=1", "=1..2", "a=2..1", "a=1..1", "a=1..+0", "a=1..+x", "a=one..2",
-                           "a=mark:..end", "a=-1..2", "a=end..end", "a=1..start", "a=nan..2"}) {
+  for (const char* text :
+       {"", "a", "a=1", "=1..2", "a=2..1", "a=1..1", "a=1..+0", "a=1..+x", "a=one..2", "a=mark:..end", "a=-1..2",
+        "a=end..end", "a=1..start", "a=nan..2", "a#2=1..2", "a#2=while speed_mps > 20"}) {
     const auto spec = ParseInterval(text);
     ASSERT_FALSE(spec.ok()) << text;
     EXPECT_EQ(spec.error().exit_status(), 2) << text;
     EXPECT_FALSE(spec.error().message.empty());
   }
+}
+
+// "bend#2" is the second time that the condition of "bend" holds, and nothing else.
+TEST(Intervals, ANumberBehindAHashIsNoPartOfAName) {
+  EXPECT_EQ(ParseInterval("bend#2=1..2").error().id.text(), "measure.wrong_interval");
+  EXPECT_TRUE(ParseInterval("bend#=1..2").ok());
+  EXPECT_TRUE(ParseInterval("#a=1..2").ok());
+  EXPECT_TRUE(ParseInterval("a=mark:x#2..end").ok()) << "the second mark";
 }
 
 class MeasuresFile : public ::testing::Test {
