@@ -5,7 +5,7 @@
 #   rodeira           view, editor, start window
 #   rodeira-dev       libraries and headers for nodes and vehicles of one's own
 #   rodeira-doc       documents
-#   python3-rodeira   recordings in Python
+#   python3-rodeira   recordings, measures and worlds in Python
 #
 # rodeira and rodeira-dev depend on rodeira-headless of the same version.
 
@@ -88,8 +88,16 @@ Tutorials, references and explanations of Rodeira as Markdown with pictures.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-rodeira)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy")
+if(TARGET rodeira_python_extension)
+  # The extension module is of one processor and one version of Python.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), \
+python3-numpy")
+else()
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy")
+endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-zstandard")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-lz4, python3-matplotlib, rodeira-headless")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/packaging/python3/postinst;\
@@ -97,6 +105,7 @@ ${CMAKE_SOURCE_DIR}/packaging/python3/prerm")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "distributed driving simulator, recordings in Python
 Reads recordings of Rodeira, and other MCAP files with OMG IDL schemas, as
 NumPy arrays and pandas frames: topics, times, columns with their units,
-events, marks, metadata and embedded files. Needs no other part of Rodeira.")
+events, marks, metadata and embedded files. Computes measures of recordings
+and of other tables, and finds places in the lanes of a world.")
 
 include(CPack)

@@ -6,13 +6,19 @@
     state = drive["vehicle_state"]
     print(state.time_s, state["velocity_w_mps.x"], drive.marks)
 
-docs/how-to/export.md shows more.
+`rodeira.measures`, `rodeira.World` and `rodeira.run` need more than NumPy (docs/reference/python.md).
 """
 
 from .errors import Error, RecordingWarning
+from .functions import Path, correct_changes, mean_deviation, pet, raff_gap, troutbeck_gap
 from .mcap import Attachment
+from .measured import Measure, Measures, Row, measure_names, measures, series, series_names
 from .nodes import Ragged
 from .recording import Event, Mark, Recording, Remark, open
+from .running import run
 from .topic import Topic
+from .world import Lane, Next, Place, World
 
-__all__ = ["Attachment", "Error", "Event", "Mark", "Ragged", "Recording", "RecordingWarning", "Remark", "Topic", "open"]
+__all__ = ["Attachment", "Error", "Event", "Lane", "Mark", "Measure", "Measures", "Next", "Path", "Place", "Ragged",
+           "Recording", "RecordingWarning", "Remark", "Row", "Topic", "World", "correct_changes", "mean_deviation",
+           "measure_names", "measures", "open", "pet", "raff_gap", "run", "series", "series_names", "troutbeck_gap"]

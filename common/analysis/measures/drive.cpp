@@ -51,8 +51,51 @@ constexpr std::array kDriveColumns{
     DriveColumn{"right_follower_gap_m", Of<&Drive::right_follower, &Neighbour::gap_m>},
 };
 
+template <class Visit>
+void EachColumn(Drive& d, const Visit& visit) {
+  for (std::vector<double>* column : {&d.x_m,
+                                      &d.y_m,
+                                      &d.z_m,
+                                      &d.heading_rad,
+                                      &d.speed_mps,
+                                      &d.yaw_radps,
+                                      &d.throttle,
+                                      &d.brake,
+                                      &d.steering_wheel_deg,
+                                      &d.indicator,
+                                      &d.road,
+                                      &d.lane,
+                                      &d.s_m,
+                                      &d.t_m,
+                                      &d.lane_width_m,
+                                      &d.lane_position_m,
+                                      &d.heading_error_rad,
+                                      &d.lane_curvature_1pm,
+                                      &d.left_line_m,
+                                      &d.right_line_m,
+                                      &d.speed_limit_mps,
+                                      &d.junction})
+    visit(*column);
+  for (Neighbour* n : {&d.leader, &d.follower, &d.left_leader, &d.left_follower, &d.right_leader, &d.right_follower}) {
+    for (std::vector<double>* column : {&n->id, &n->gap_m, &n->speed_mps, &n->length_m}) visit(*column);
+  }
+}
+
 }  // namespace
 
 std::span<const DriveColumn> DriveColumns() { return kDriveColumns; }
+
+std::vector<double>* FindColumn(Drive& drive, std::string_view name) {
+  for (const DriveColumn& column : kDriveColumns) {
+    if (name == column.name) return const_cast<std::vector<double>*>(&column.of(drive));  // of a drive that may change
+  }
+  return nullptr;
+}
+
+void GrowColumns(Drive& drive, std::size_t size) {
+  EachColumn(drive, [size](std::vector<double>& column) { column.resize(size, kMissing); });
+  drive.episode.resize(size, 0);
+  drive.crossing.resize(size, 0);
+}
 
 }  // namespace rodeira::measures

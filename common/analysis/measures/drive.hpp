@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/analysis/measures/measure.hpp"
@@ -60,6 +61,10 @@ struct DriveColumn {
   const std::vector<double>& (*of)(const Drive& drive);
 };
 std::span<const DriveColumn> DriveColumns();
+// The column of that name; null where there is none.
+std::vector<double>* FindColumn(Drive& drive, std::string_view name);
+// Adds missing samples to every column up to that size.
+void GrowColumns(Drive& drive, std::size_t size);
 
 // The samples [from, to) of a column.
 inline Series Part(const std::vector<double>& column, std::size_t from, std::size_t to) {

@@ -7,36 +7,6 @@
 namespace rodeira::measures {
 namespace {
 
-template <class Visit>
-void EachColumn(Drive& d, const Visit& visit) {
-  for (std::vector<double>* column : {&d.x_m,
-                                      &d.y_m,
-                                      &d.z_m,
-                                      &d.heading_rad,
-                                      &d.speed_mps,
-                                      &d.yaw_radps,
-                                      &d.throttle,
-                                      &d.brake,
-                                      &d.steering_wheel_deg,
-                                      &d.indicator,
-                                      &d.road,
-                                      &d.lane,
-                                      &d.s_m,
-                                      &d.t_m,
-                                      &d.lane_width_m,
-                                      &d.lane_position_m,
-                                      &d.heading_error_rad,
-                                      &d.lane_curvature_1pm,
-                                      &d.left_line_m,
-                                      &d.right_line_m,
-                                      &d.speed_limit_mps,
-                                      &d.junction})
-    visit(*column);
-  for (Neighbour* n : {&d.leader, &d.follower, &d.left_leader, &d.left_follower, &d.right_leader, &d.right_follower}) {
-    for (std::vector<double>* column : {&n->id, &n->gap_m, &n->speed_mps, &n->length_m}) visit(*column);
-  }
-}
-
 void Put(Neighbour& into, std::size_t k, const Near& near) {
   if (near.vehicle == nullptr) return;
   into.id[k] = static_cast<double>(near.vehicle->id);
@@ -80,9 +50,8 @@ void DriveBuilder::SetFootprint(double length_m, double front_m, double width_m)
 }
 
 void DriveBuilder::GrowTo(std::size_t size) {
-  EachColumn(drive_, [size](std::vector<double>& column) { column.resize(size, kMissing); });
   drive_.episode.resize(size, episode_);
-  drive_.crossing.resize(size, 0);
+  GrowColumns(drive_, size);
   along_m_.resize(size, kMissing);
 }
 

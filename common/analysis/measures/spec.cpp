@@ -92,6 +92,26 @@ MeasuresSpec DefaultSpec() {
   return spec;
 }
 
+base::Status SetOption(const MeasureInfo& info, const std::string& option, double value, MeasuresSpec& spec) {
+  std::vector<std::string> names;
+  for (const OptionInfo& known : info.options) {
+    names.emplace_back(known.name);
+    if (names.back() != option) continue;
+    if (!(value >= known.low && value <= known.high))
+      return base::WrongInput(
+          "config.out_of_range",
+          fmt::format("{} = {:g} was found; {:g} to {:g} was expected", option, value, known.low, known.high),
+          info.name);
+    spec.options[info.name][option] = value;
+    return {};
+  }
+  return base::WrongInput("config.unknown_key",
+                          names.empty()
+                              ? fmt::format("there is no option '{}'; the measure has none", option)
+                              : fmt::format("there is no option '{}'{}", option, base::DidYouMean(option, names)),
+                          info.name);
+}
+
 base::Status CheckBaseline(const MeasuresSpec& spec) {
   if (spec.baseline.empty()) return {};
   std::vector<std::string> names;

@@ -23,6 +23,8 @@ struct MeasuresSpec {
 
 // Every measure, over the whole recording.
 MeasuresSpec DefaultSpec();
+// Sets an option of a measure. Wrong input where it is unknown (with the nearest name) or out of its range.
+base::Status SetOption(const MeasureInfo& info, const std::string& option, double value, MeasuresSpec& spec);
 // Wrong input where the baseline is no interval, or one with a condition.
 base::Status CheckBaseline(const MeasuresSpec& spec);
 // Wrong input, with the place and the nearest right name, where something is unknown, out of range or does not fit.

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""SUMO's device.ssm as an oracle: two cars are moved along given trajectories, and SUMO's time to collision, DRAC and
+changes of PET are compared with those of the extension module. Debian's sumo and sumo-tools are needed."""
+
+import importlib.util
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import rodeira
+
+TOOLS = pathlib.Path(os.environ.get("SUMO_HOME", "/usr/share/sumo")) / "tools"
+HAS_SUMO = bool(shutil.which("sumo") and shutil.which("netconvert") and (TOOLS / "traci").is_dir())
+HAS_EXTENSION = bool(importlib.util.find_spec("_rodeira") or importlib.util.find_spec("rodeira._rodeira"))
+STEP_S = 0.1
+LENGTH_M, WIDTH_M = 5.0, 1.8  # of SUMO's default car
+
+
+@unittest.skipUnless(HAS_SUMO, "SUMO (Debian: sumo, sumo-tools) is not installed")
+@unittest.skipUnless(HAS_EXTENSION, "the Python extension module _rodeira is not installed")
+class SurrogateSafety(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = pathlib.Path(kept.name)
+
+    def net(self, nodes, edges, connections=""):
+        for name, text in (("a.nod.xml", f"<nodes>{nodes}</nodes>"), ("a.edg.xml", f"<edges>{edges}</edges>"),
+                           ("a.con.xml", f"<connections>{connections}</connections>")):
+            (self.folder / name).write_text(text)
+        subprocess.run(["netconvert", "-n", "a.nod.xml", "-e", "a.edg.xml", "-x", "a.con.xml", "-o", "a.net.xml",
+                        "--no-turnarounds", "--offset.disable-normalization"], cwd=self.folder, check=True,
+                       capture_output=True)
+
+    def conflicts(self, routes, places):
+        """What SUMO writes when `places` (by car: front x, y, angle of each step) are driven."""
+        (self.folder / "a.rou.xml").write_text(
+            "<routes><vType id='car' length='5' width='1.8' maxSpeed='60' accel='50' decel='50'/>" +
+            "".join(f"<route id='{car}' edges='{edges}'/>" for car, edges in routes.items()) +
+            "".join(f"<vehicle id='{car}' type='car' route='{car}' depart='0' departSpeed='0'>"
+                    "<param key='has.ssm.device' value='true'/><param key='device.ssm.file' value='ssm.xml'/>"
+                    "<param key='device.ssm.measures' value='TTC DRAC PET'/>"
+                    "<param key='device.ssm.thresholds' value='100 0 100'/>"
+                    "<param key='device.ssm.trajectories' value='true'/>"
+                    "<param key='device.ssm.range' value='400'/></vehicle>" for car in routes) + "</routes>")
+        steps = len(next(iter(places.values())))
+        script = self.folder / "drive.py"
+        script.write_text(f"""import sys
+sys.path.insert(0, {str(TOOLS)!r})
+import traci
+places = {places!r}
+traci.start(["sumo", "-n", "a.net.xml", "-r", "a.rou.xml", "--step-length", "{STEP_S}", "--no-step-log", "true",
+             "--collision.action", "none", "--no-warnings", "true", "--default.speeddev", "0"])
+traci.simulationStep()
+for car in places:
+    traci.vehicle.setSpeedMode(car, 0)
+    traci.vehicle.setLaneChangeMode(car, 0)
+for k in range({steps}):
+    for car, path in places.items():
+        x, y, angle, speed = path[k]
+        traci.vehicle.moveToXY(car, "", -1, x, y, angle, keepRoute=2)
+        traci.vehicle.setSpeed(car, speed)
+    traci.simulationStep()
+traci.close()
+""")
+        done = subprocess.run([sys.executable, script], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return ElementTree.parse(self.folder / "ssm.xml").getroot().findall("conflict")
+
+    def test_time_to_collision_and_drac_of_following(self):
+        self.net("<node id='a' x='0' y='0'/><node id='b' x='2000' y='0'/>",
+                 "<edge id='e' from='a' to='b' numLanes='1' speed='60'/>")
+        lane_y = -1.6  # the middle of a lane of 3.2 m, right of the edge
+        count = 140
+        own = [(20.0 + 25.0 * STEP_S * k, lane_y, 90.0, 25.0) for k in range(count)]
+        leader = [(20.0 + 155.0 + LENGTH_M + 15.0 * STEP_S * k, lane_y, 90.0, 15.0) for k in range(count)]
+        conflicts = self.conflicts({"leader": "e", "own": "e"}, {"leader": leader, "own": own})
+        conflict = next(one for one in conflicts if one.get("ego") == "own")
+        times = np.array(conflict.find("timeSpan").get("values").split(), dtype=float)
+        compared = 0
+        for name, tag in (("ttc_s", "TTCSpan"), ("drac_mps2", "DRACSpan")):
+            for time, text in zip(times, conflict.find(tag).get("values").split()):
+                k = round(time / STEP_S) - 1  # of the places: the first step sets none
+                if text == "NA" or not 0 < k < count:
+                    continue
+                gap = leader[k][0] - LENGTH_M - own[k][0]
+                table = {"time_s": np.arange(3) * STEP_S, "speed_mps": np.full(3, 25.0),
+                         "leader_id": np.ones(3), "leader_speed_mps": np.full(3, 15.0),
+                         "leader_gap_m": np.full(3, gap)}
+                far = {"max_gap_m": 200, "max_time_gap_s": 10}
+                got = rodeira.measures(table, ["ttc_min_s", "drac_max_mps2"],
+                                       options={"ttc_min_s": far, "drac_max_mps2": far})
+                value = got["ttc_min_s" if name == "ttc_s" else "drac_max_mps2"][0]
+                self.assertAlmostEqual(value, float(text), delta=0.006, msg=(name, time, gap))
+                compared += 1
+        self.assertGreater(compared, 150)
+
+    def test_post_encroachment_time_of_crossing(self):
+        self.net("<node id='c' x='0' y='0' type='priority'/><node id='w' x='-500' y='0'/><node id='o' x='500' y='0'/>"
+                 "<node id='s' x='0' y='-500'/><node id='n' x='0' y='500'/>",
+                 "".join(f"<edge id='{a}{b}' from='{a}' to='{b}' numLanes='1' speed='60'/>"
+                         for a, b in (("w", "c"), ("c", "o"), ("s", "c"), ("c", "n"))),
+                 "<connection from='wc' to='co'/><connection from='sc' to='cn'/>")
+        count, right = 400, 1.6
+        own_s, sumo_s = [], []
+        for wait_m in (20.0, 45.0):
+            first = [(-200.0 + 12.0 * STEP_S * k, -right, 90.0, 12.0) for k in range(count)]
+            second = [(right, -200.0 - wait_m + 10.0 * STEP_S * k, 0.0, 10.0) for k in range(count)]
+            conflicts = self.conflicts({"first": "wc co", "second": "sc cn"}, {"first": first, "second": second})
+            sumo_s.append(float(conflicts[0].find("PET").get("value")))
+            paths = []
+            for places, heading in ((first, 0.0), (second, 0.5 * math.pi)):
+                x, y = (np.array([place[axis] for place in places]) for axis in (0, 1))
+                half = 0.5 * LENGTH_M
+                paths.append(rodeira.Path(x - half * math.cos(heading), y - half * math.sin(heading),
+                                          np.full(count, heading), LENGTH_M, WIDTH_M))
+            own_s.append(rodeira.pet(*paths, 1.0 / STEP_S).value)
+            # The second's front reaches the first's right side; the first's rear leaves the second's right side.
+            enters = (200.0 + wait_m - right - 0.5 * WIDTH_M) / 10.0
+            leaves = (200.0 + right + 0.5 * WIDTH_M + LENGTH_M) / 12.0
+            self.assertAlmostEqual(own_s[-1], enters - leaves, delta=1e-6)
+        # SUMO takes another area, of lanes within the junction; what a longer wait adds does not depend on the area.
+        self.assertAlmostEqual(own_s[1] - own_s[0], sumo_s[1] - sumo_s[0], delta=0.011)
