@@ -1,57 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/bicycle_settings.hpp"
 
+#include "common/core/config/declared.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
+#include "common/vehicle/dynamics/vehicle_schema.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
 using config::Map;
-using config::Range;
 
-BodySettings ReadBody(const Map& map) {
+BodySettings ReadBody(const Map& given) {
+  const config::DeclaredMap map(given, BodyKeys());
   BodySettings body;
-  body.mass_kg = map.Number("mass_kg", {50.0, 100000.0});
-  body.roll_inertia_kgm2 = map.Number("roll_inertia_kgm2", Range::Positive());
-  body.pitch_inertia_kgm2 = map.Number("pitch_inertia_kgm2", Range::Positive());
-  body.yaw_inertia_kgm2 = map.Number("yaw_inertia_kgm2", Range::Positive());
-  body.cg_height_m = map.Number("cg_height_m", {0.05, 5.0});
-  body.wheelbase_m = map.Number("wheelbase_m", {0.5, 20.0});
-  body.cg_to_front_axle_m = map.Number("cg_to_front_axle_m", Range::Positive());
-  body.drag_area_m2 = map.Number("drag_area_m2", Range::NotNegative());
-  body.air_density_kgpm3 = map.Number("air_density_kgpm3", {0.0, 3.0}, body.air_density_kgpm3);
+  body.mass_kg = map.Number("mass_kg");
+  body.roll_inertia_kgm2 = map.Number("roll_inertia_kgm2");
+  body.pitch_inertia_kgm2 = map.Number("pitch_inertia_kgm2");
+  body.yaw_inertia_kgm2 = map.Number("yaw_inertia_kgm2");
+  body.cg_height_m = map.Number("cg_height_m");
+  body.wheelbase_m = map.Number("wheelbase_m");
+  body.cg_to_front_axle_m = map.Number("cg_to_front_axle_m");
+  body.drag_area_m2 = map.Number("drag_area_m2");
+  body.air_density_kgpm3 = map.Number("air_density_kgpm3");
   if (body.cg_to_front_axle_m >= body.wheelbase_m) {
-    map.Problem(
+    map.map().Problem(
         "cg_to_front_axle_m", "config.wrong_order",
         "'body.cg_to_front_axle_m' is not below 'body.wheelbase_m'; the centre of gravity must lie between the axles");
   }
   return body;
 }
 
-SteeringSettings ReadBicycleSteering(const Map& map) {
+SteeringSettings ReadBicycleSteering(const Map& given) {
+  const config::DeclaredMap map(given, SteeringKeys());
   SteeringSettings steering;
-  steering.ratio = map.Number("ratio", {1.0, 50.0});
-  steering.limit_rad = map.Number("wheel_limit_rad", {0.1, 50.0});
-  steering.mechanical_trail_m = map.Number("mechanical_trail_m", {0.0, 0.2}, steering.mechanical_trail_m);
-  steering.pneumatic_trail_m = map.Number("pneumatic_trail_m", {0.0, 0.2}, steering.pneumatic_trail_m);
+  steering.ratio = map.Number("ratio");
+  steering.limit_rad = map.Number("wheel_limit_rad");
+  steering.mechanical_trail_m = map.Number("mechanical_trail_m");
+  steering.pneumatic_trail_m = map.Number("pneumatic_trail_m");
   constexpr double kMaxLock_rad = 1.2;
   if (steering.limit_rad / steering.ratio > kMaxLock_rad) {
-    map.Problem("wheel_limit_rad",
-                "'steering.wheel_limit_rad' over 'steering.ratio' turns the front wheels by more than 1.2 rad");
+    map.map().Problem("wheel_limit_rad",
+                      "'steering.wheel_limit_rad' over 'steering.ratio' turns the front wheels by more than 1.2 rad");
   }
   return steering;
 }
 
 VehicleDimensions ReadBicycleDimensions(const Map& root, const BicycleSettings& bicycle) {
-  const Map map = root.Child("dimensions");
+  const config::DeclaredMap map(root.Child("dimensions"), DimensionKeys());
   VehicleDimensions dimensions;
   dimensions.wheelbase_m = bicycle.body.wheelbase_m;
-  dimensions.track_front_m = map.Number("track_front_m", {0.3, 5.0});
-  dimensions.track_rear_m = map.Number("track_rear_m", {0.3, 5.0});
-  dimensions.front_m = map.Number("front_m", Range::Positive());
-  dimensions.rear_m = map.Number("rear_m", Range::Positive());
-  dimensions.width_m = map.Number("width_m", Range::Positive());
-  dimensions.height_m = map.Number("height_m", Range::Positive());
+  dimensions.track_front_m = map.Number("track_front_m");
+  dimensions.track_rear_m = map.Number("track_rear_m");
+  dimensions.front_m = map.Number("front_m");
+  dimensions.rear_m = map.Number("rear_m");
+  dimensions.width_m = map.Number("width_m");
+  dimensions.height_m = map.Number("height_m");
   dimensions.wheel_radius_m = bicycle.wheel.radius_m;
   dimensions.wheel_width_m = bicycle.wheel.width_m;
   dimensions.mass_kg = bicycle.body.mass_kg;
@@ -63,19 +66,21 @@ VehicleDimensions ReadBicycleDimensions(const Map& root, const BicycleSettings& 
 
 }  // namespace
 
-BicycleSettings ReadBicycle(const Map& root) {
+BicycleSettings ReadBicycle(const Map& given) {
+  const config::DeclaredMap root(given, VehicleSchema().keys);
   BicycleSettings bicycle;
-  bicycle.body = ReadBody(root.Child("body"));
-  bicycle.steering = ReadBicycleSteering(root.Child("steering"));
-  const Map suspension = root.Child("suspension");
-  bicycle.suspension = {ReadSuspension(suspension.Child("front")), ReadSuspension(suspension.Child("rear"))};
-  const Map tyre = root.Child("tyre");
-  bicycle.tyre = {ReadTyre(tyre.Child("front")), ReadTyre(tyre.Child("rear"))};
-  bicycle.wheel = ReadWheel(root.Child("wheel"));
-  bicycle.brakes = ReadBrakes(root.Child("brakes"));
-  bicycle.powertrain = ReadPowertrain(root);
-  bicycle.front_driven = root.Choice("driven_axle", {"front", "rear"}) != "rear";
-  bicycle.dimensions = ReadBicycleDimensions(root, bicycle);
+  bicycle.body = ReadBody(root.Child("body").map());
+  bicycle.steering = ReadBicycleSteering(root.Child("steering").map());
+  const config::DeclaredMap suspension = root.Child("suspension");
+  bicycle.suspension = {ReadSuspension(suspension.Child("front").map()),
+                        ReadSuspension(suspension.Child("rear").map())};
+  const config::DeclaredMap tyre = root.Child("tyre");
+  bicycle.tyre = {ReadTyre(tyre.Child("front").map()), ReadTyre(tyre.Child("rear").map())};
+  bicycle.wheel = ReadWheel(root.Child("wheel").map());
+  bicycle.brakes = ReadBrakes(root.Child("brakes").map());
+  bicycle.powertrain = ReadPowertrain(given);
+  bicycle.front_driven = root.Word("driven_axle") != "rear";
+  bicycle.dimensions = ReadBicycleDimensions(root.MapWith("dimensions"), bicycle);
   return bicycle;
 }
 

@@ -2,16 +2,12 @@
 #include "common/vehicle/dynamics/ode_settings.hpp"
 
 #include "common/core/base/constants.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
+#include "common/vehicle/dynamics/vehicle_schema.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
 namespace rodeira::dynamics {
-namespace {
-
-using config::Range;
-
-}  // namespace
-
 double LoadAtRest(const BicycleSettings& car, std::size_t wheel) {
   const double rear_share = car.body.cg_to_front_axle_m / car.body.wheelbase_m;
   return 0.5 * car.body.mass_kg * base::kGravity_mps2 * (wheel < kRearLeft ? 1.0 - rear_share : rear_share);
@@ -52,29 +48,29 @@ OdeChassis ChassisOf(const OdeSettings& settings) {
 OdeSettings ReadOde(const config::Map& root) {
   OdeSettings ode;
   ode.car = ReadBicycle(root);
-  const config::Map map = root.Child("ode");
-  ode.wheel_mass_kg = map.Number("wheel_mass_kg", {0.5, 5000.0});
-  ode.wheel_across_kgm2 = map.Number("wheel_across_kgm2", Range::Positive());
-  ode.tyre_damping_Nspm = map.Number("tyre_damping_Nspm", {0.0, 1e5});
-  ode.stop_Npm = map.Number("stop_Npm", {0.0, 1e6});
-  ode.clearance_m = map.Number("clearance_m", {0.01, 2.0});
-  ode.body_friction = map.Number("body_friction", {0.0, 2.0});
-  ode.longest_substep_s = map.Number("longest_substep_s", {1e-5, 0.005}, ode.longest_substep_s);
+  const config::DeclaredMap map(root.Child("ode"), OdeKeys());
+  ode.wheel_mass_kg = map.Number("wheel_mass_kg");
+  ode.wheel_across_kgm2 = map.Number("wheel_across_kgm2");
+  ode.tyre_damping_Nspm = map.Number("tyre_damping_Nspm");
+  ode.stop_Npm = map.Number("stop_Npm");
+  ode.clearance_m = map.Number("clearance_m");
+  ode.body_friction = map.Number("body_friction");
+  ode.longest_substep_s = map.Number("longest_substep_s");
   // Numbers that are wrong by themselves have been told of: what follows needs sound ones.
   if (!(ode.car.body.mass_kg > 0.0 && ode.wheel_mass_kg > 0.0 && ode.car.body.wheelbase_m > 0.0 &&
         ode.car.wheel.vertical_Npm > 0.0))
     return ode;
   const OdeChassis chassis = ChassisOf(ode);
   if (!(chassis.mass_kg > 0.0)) {
-    map.Problem("wheel_mass_kg", "config.wrong_order",
-                "four times 'ode.wheel_mass_kg' is not below 'body.mass_kg', the whole car's");
+    map.map().Problem("wheel_mass_kg", "config.wrong_order",
+                      "four times 'ode.wheel_mass_kg' is not below 'body.mass_kg', the whole car's");
   } else if (!(chassis.inertia_kgm2.minCoeff() > 0.0)) {
-    map.Problem(
+    map.map().Problem(
         "wheel_mass_kg",
         "the wheels alone have more inertia about the car's centre of gravity than 'body' says of the whole car");
   }
   if (ode.clearance_m >= ode.car.dimensions.height_m)
-    map.Problem("clearance_m", "config.wrong_order", "'ode.clearance_m' is not below 'dimensions.height_m'");
+    map.map().Problem("clearance_m", "config.wrong_order", "'ode.clearance_m' is not below 'dimensions.height_m'");
   return ode;
 }
 

@@ -3,33 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
+#include "common/core/config/declared.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/tyre_file.hpp"
+#include "common/vehicle/dynamics/vehicle_schema.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
 using config::Map;
-using config::Range;
 
 constexpr double kRadpsPerRpm = geometry::kPi / 30.0;
 
-double Rpm(const Map& map, const char* key, double otherwise_radps) {
-  return map.Number(key, {0.0, 30000.0}, otherwise_radps / kRadpsPerRpm) * kRadpsPerRpm;
-}
+double Rpm(const config::DeclaredMap& map, const char* key) { return map.Number(key) * kRadpsPerRpm; }
 
-// Loads and pressures, which a factor or a shift is not.
-bool IsSize(std::string_view coefficient) {
-  return coefficient == "FNOMIN" || coefficient == "FZMAX" || coefficient == "NOMPRES" || coefficient == "INFLPRES" ||
-         coefficient == "LFZO";
-}
-
-std::vector<TorqueSample> ReadCurve(const Map& map) {
+std::vector<TorqueSample> ReadCurve(const config::DeclaredMap& map) {
   constexpr const char* kKey = "full_load_rpm_Nm";
   std::vector<TorqueSample> samples;
-  const config::List items = map.Items(kKey);
+  const config::List items = map.MapWith(kKey).Items(kKey);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::vector<double> pair = items.Numbers(i);
     if (pair.size() != 2) {
@@ -51,86 +42,90 @@ std::vector<TorqueSample> ReadCurve(const Map& map) {
   return samples;
 }
 
-EngineSettings ReadEngine(const Map& map) {
+EngineSettings ReadEngine(const Map& given) {
+  const config::DeclaredMap map(given, EngineKeys());
   EngineSettings engine;
   engine.full_load = ReadCurve(map);
-  if (map.Choice("curve", {"linear", "smooth"}, "linear") == "smooth")
-    engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
-  engine.inertia_kgm2 = map.Number("inertia_kgm2", Range::Positive());
-  engine.drag_Nm = map.Number("drag_Nm", Range::Positive());
-  engine.drag_Nmspr = map.Number("drag_Nmspr", Range::NotNegative());
-  engine.idle_radps = Rpm(map, "idle_rpm", engine.idle_radps);
-  engine.stall_radps = Rpm(map, "stall_rpm", engine.stall_radps);
-  engine.cut_radps = Rpm(map, "cut_rpm", engine.cut_radps);
-  engine.resume_radps = Rpm(map, "resume_rpm", engine.resume_radps);
-  engine.starter_Nm = map.Number("starter_Nm", Range::Positive(), engine.starter_Nm);
-  engine.indicated_efficiency = map.Number("indicated_efficiency", {0.05, 0.7}, engine.indicated_efficiency);
-  engine.heating_value_Jpkg = map.Number("heating_value_Jpkg", {1e6, 2e8}, engine.heating_value_Jpkg);
-  if (map.Has("throttle_fuel_lph"))
-    engine.throttle_fuel_kgps = map.Number("throttle_fuel_lph", {0.1, 1000.0}) * kPetrol_kgpl / 3600.0;
+  if (map.Word("curve") == "smooth") engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
+  engine.inertia_kgm2 = map.Number("inertia_kgm2");
+  engine.drag_Nm = map.Number("drag_Nm");
+  engine.drag_Nmspr = map.Number("drag_Nmspr");
+  engine.idle_radps = Rpm(map, "idle_rpm");
+  engine.stall_radps = Rpm(map, "stall_rpm");
+  engine.cut_radps = Rpm(map, "cut_rpm");
+  engine.resume_radps = Rpm(map, "resume_rpm");
+  engine.starter_Nm = map.Number("starter_Nm");
+  engine.indicated_efficiency = map.Number("indicated_efficiency");
+  engine.heating_value_Jpkg = map.Number("heating_value_Jpkg");
+  if (const auto fuel_lph = map.OptionalNumber("throttle_fuel_lph"))
+    engine.throttle_fuel_kgps = *fuel_lph * kPetrol_kgpl / 3600.0;
   if (engine.stall_radps >= engine.idle_radps)
-    map.Problem("stall_rpm", "config.wrong_order", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
+    map.map().Problem("stall_rpm", "config.wrong_order", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
   if (engine.resume_radps >= engine.cut_radps)
-    map.Problem("resume_rpm", "config.wrong_order", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
+    map.map().Problem("resume_rpm", "config.wrong_order", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
   return engine;
 }
 
-ClutchSettings ReadClutch(const Map& map) { return {map.Number("capacity_Nm", Range::Positive())}; }
+ClutchSettings ReadClutch(const Map& given) { return {config::DeclaredMap(given, ClutchKeys()).Number("capacity_Nm")}; }
 
-GearboxSettings ReadGearbox(const Map& map) {
+GearboxSettings ReadGearbox(const Map& given) {
+  const config::DeclaredMap map(given, GearboxKeys());
   GearboxSettings gearbox;
-  gearbox.forward = map.Numbers("forward", Range::Positive());
+  gearbox.forward = map.Numbers("forward");
   if (gearbox.forward.empty())
-    map.Problem("forward", "config.too_few", "'gearbox.forward' is empty; at least one ratio was expected");
+    map.map().Problem("forward", "config.too_few", "'gearbox.forward' is empty; at least one ratio was expected");
   for (std::size_t i = 1; i < gearbox.forward.size(); ++i) {
     if (gearbox.forward[i] >= gearbox.forward[i - 1])
-      map.Problem("forward", "config.wrong_order", "'gearbox.forward' does not fall from gear to gear");
+      map.map().Problem("forward", "config.wrong_order", "'gearbox.forward' does not fall from gear to gear");
   }
-  gearbox.reverse = map.Number("reverse", Range::Positive());
-  gearbox.final_drive = map.Number("final_drive", Range::Positive());
-  gearbox.efficiency = map.Number("efficiency", {0.5, 1.0});
+  gearbox.reverse = map.Number("reverse");
+  gearbox.final_drive = map.Number("final_drive");
+  gearbox.efficiency = map.Number("efficiency");
   return gearbox;
 }
 
-DifferentialSettings ReadDifferential(const Map& map) {
-  constexpr Range kLocking{0.0, 1.0};
+DifferentialSettings ReadDifferential(const Map& given) {
+  const config::DeclaredMap map(given, DifferentialKeys());
   DifferentialSettings differential;
-  differential.preload_Nm = map.Number("preload_Nm", Range::NotNegative(), differential.preload_Nm);
-  differential.locking_drive = map.Number("locking_drive", kLocking, differential.locking_drive);
-  differential.locking_overrun = map.Number("locking_overrun", kLocking, differential.locking_overrun);
+  differential.preload_Nm = map.Number("preload_Nm");
+  differential.locking_drive = map.Number("locking_drive");
+  differential.locking_overrun = map.Number("locking_overrun");
   return differential;
 }
 
-AutomaticSettings ReadAutomatic(const Map& map) {
+AutomaticSettings ReadAutomatic(const Map& given) {
+  const config::DeclaredMap map(given, AutomaticKeys());
   AutomaticSettings automatic;
-  automatic.up_light_radps = Rpm(map, "up_light_rpm", automatic.up_light_radps);
-  automatic.up_full_radps = Rpm(map, "up_full_rpm", automatic.up_full_radps);
-  automatic.down_light_radps = Rpm(map, "down_light_rpm", automatic.down_light_radps);
-  automatic.down_full_radps = Rpm(map, "down_full_rpm", automatic.down_full_radps);
-  automatic.margin = map.Number("margin", {1.0, 2.0}, automatic.margin);
-  automatic.pause_s = map.Number("pause_s", {0.0, 10.0}, automatic.pause_s);
-  automatic.open_s = map.Number("open_s", {0.01, 2.0}, automatic.open_s);
-  automatic.swap_s = map.Number("swap_s", {0.0, 2.0}, automatic.swap_s);
-  automatic.close_s = map.Number("close_s", {0.01, 2.0}, automatic.close_s);
-  automatic.press_s = map.Number("press_s", {0.0, 5.0}, automatic.press_s);
-  automatic.release_s = map.Number("release_s", {0.0, 20.0}, automatic.release_s);
-  automatic.bite_radps = Rpm(map, "bite_rpm", automatic.bite_radps);
-  automatic.closed_radps = Rpm(map, "closed_rpm", automatic.closed_radps);
+  automatic.up_light_radps = Rpm(map, "up_light_rpm");
+  automatic.up_full_radps = Rpm(map, "up_full_rpm");
+  automatic.down_light_radps = Rpm(map, "down_light_rpm");
+  automatic.down_full_radps = Rpm(map, "down_full_rpm");
+  automatic.margin = map.Number("margin");
+  automatic.pause_s = map.Number("pause_s");
+  automatic.open_s = map.Number("open_s");
+  automatic.swap_s = map.Number("swap_s");
+  automatic.close_s = map.Number("close_s");
+  automatic.press_s = map.Number("press_s");
+  automatic.release_s = map.Number("release_s");
+  automatic.bite_radps = Rpm(map, "bite_rpm");
+  automatic.closed_radps = Rpm(map, "closed_rpm");
   if (automatic.closed_radps <= automatic.bite_radps)
-    map.Problem("closed_rpm", "config.wrong_order", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
+    map.map().Problem("closed_rpm", "config.wrong_order", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
   return automatic;
 }
 
-SlipCurve ReadSlipCurve(const Map& map) {
+SlipCurve ReadSlipCurve(const Map& given) {
+  const config::DeclaredMap map(given, SlipCurveKeys());
   SlipCurve curve;
-  curve.extremum_slip = map.Number("extremum_slip", {0.005, 2.0});
-  curve.extremum_value = map.Number("extremum_value", {0.05, 5.0});
-  curve.asymptote_slip = map.Number("asymptote_slip", {0.005, 10.0});
-  curve.asymptote_value = map.Number("asymptote_value", {0.0, 5.0});
-  if (curve.asymptote_slip <= curve.extremum_slip)
-    map.Problem("asymptote_slip", "config.wrong_order", "'asymptote_slip' is not above 'extremum_slip'");
-  if (curve.asymptote_value > curve.extremum_value)
-    map.Problem("asymptote_value", "config.wrong_order", "'asymptote_value' is above 'extremum_value', the largest");
+  curve.extremum_slip = map.Number("extremum_slip");
+  curve.extremum_value = map.Number("extremum_value");
+  curve.asymptote_slip = map.Number("asymptote_slip");
+  curve.asymptote_value = map.Number("asymptote_value");
+  if (given.Has("asymptote_slip") && curve.asymptote_slip <= curve.extremum_slip)
+    map.map().Problem("asymptote_slip", "config.wrong_order", "'asymptote_slip' is not above 'extremum_slip'");
+  if (given.Has("asymptote_value") && curve.asymptote_value > curve.extremum_value)
+    map.map().Problem("asymptote_value", "config.wrong_order",
+                      "'asymptote_value' is above 'extremum_value', the largest");
   return curve;
 }
 
@@ -146,76 +141,85 @@ PowertrainSettings ReadPowertrain(const Map& root) {
   return powertrain;
 }
 
-SuspensionSettings ReadSuspension(const Map& map) {
+SuspensionSettings ReadSuspension(const Map& given) {
+  const config::DeclaredMap map(given, SuspensionKeys());
   SuspensionSettings suspension;
-  suspension.spring_Npm = map.Number("spring_Npm", Range::Positive());
-  suspension.damper_Nspm = map.Number("damper_Nspm", Range::Positive());
-  suspension.anti_roll_Npm = map.Number("anti_roll_Npm", Range::NotNegative());
-  suspension.bump_m = map.Number("bump_m", {0.01, 0.5});
-  suspension.rebound_m = map.Number("rebound_m", {0.01, 0.5});
+  suspension.spring_Npm = map.Number("spring_Npm");
+  suspension.damper_Nspm = map.Number("damper_Nspm");
+  suspension.anti_roll_Npm = map.Number("anti_roll_Npm");
+  suspension.bump_m = map.Number("bump_m");
+  suspension.rebound_m = map.Number("rebound_m");
   return suspension;
 }
 
 Enveloping ReadEnveloping(const Map& map) {
-  return map.Choice("enveloping", {"none", "ring"}, "none") == "ring" ? Enveloping::kRing : Enveloping::kNone;
+  const std::vector<config::Key> keys{EnvelopingKey()};
+  return config::DeclaredMap(map, keys).Word("enveloping") == "ring" ? Enveloping::kRing : Enveloping::kNone;
 }
 
-WheelSettings ReadWheel(const Map& map) {
+WheelSettings ReadWheel(const Map& given) {
+  const config::DeclaredMap map(given, WheelKeys());
   WheelSettings wheel;
-  wheel.radius_m = map.Number("radius_m", {0.05, 2.0});
-  wheel.rolling_radius_m = map.Number("rolling_radius_m", {0.05, 2.0});
-  wheel.width_m = map.Number("width_m", {0.02, 1.0});
-  wheel.inertia_kgm2 = map.Number("inertia_kgm2", {0.05, 1000.0});
-  wheel.vertical_Npm = map.Number("vertical_Npm", {1e4, 1e7});
-  wheel.rolling_resistance = map.Number("rolling_resistance", {0.0, 0.5});
-  wheel.enveloping = ReadEnveloping(map);
+  wheel.radius_m = map.Number("radius_m");
+  wheel.rolling_radius_m = map.Number("rolling_radius_m");
+  wheel.width_m = map.Number("width_m");
+  wheel.inertia_kgm2 = map.Number("inertia_kgm2");
+  wheel.vertical_Npm = map.Number("vertical_Npm");
+  wheel.rolling_resistance = map.Number("rolling_resistance");
+  wheel.enveloping = ReadEnveloping(map.MapWith("enveloping"));
   return wheel;
 }
 
-BrakeSettings ReadBrakes(const Map& map) {
+BrakeSettings ReadBrakes(const Map& given) {
+  const config::DeclaredMap map(given, BrakeKeys());
   BrakeSettings brakes;
-  brakes.front_Nm = map.Number("front_Nm", Range::NotNegative());
-  brakes.rear_Nm = map.Number("rear_Nm", Range::NotNegative());
-  brakes.handbrake_Nm = map.Number("handbrake_Nm", Range::NotNegative());
+  brakes.front_Nm = map.Number("front_Nm");
+  brakes.rear_Nm = map.Number("rear_Nm");
+  brakes.handbrake_Nm = map.Number("handbrake_Nm");
   return brakes;
 }
 
-TyreSettings ReadTyre(const Map& map) {
+TyreSettings ReadTyre(const Map& given) {
+  const config::DeclaredMap map(given, TyreKeys());
   TyreSettings tyre;
-  tyre.relaxation_longitudinal_m = map.Number("relaxation_longitudinal_m", {0.05, 5.0});
-  tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m", {0.05, 5.0});
-  tyre.low_speed_mps = map.Number("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps);
-  tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm);
-  if (map.Has("slip_curve")) {
+  tyre.relaxation_longitudinal_m = map.Number("relaxation_longitudinal_m");
+  tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m");
+  tyre.low_speed_mps = map.Number("low_speed_mps");
+  tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm");
+  if (map.map().Has("slip_curve")) {
     for (const char* other : {"tir", "magic_formula"}) {
-      if (map.Has(other))
-        map.Problem(other, "config.conflicting_keys",
-                    fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
+      if (map.map().Has(other))
+        map.map().Problem(other, "config.conflicting_keys",
+                          fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
     }
-    const Map curve = map.Child("slip_curve");
+    const Map curve = map.MapWith("slip_curve").Child("slip_curve");
     tyre.slip_curve =
         SlipCurveSettings{ReadSlipCurve(curve.Child("longitudinal")), ReadSlipCurve(curve.Child("lateral"))};
     return tyre;
   }
   // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
-  if (const auto tir = map.OptionalPath("tir")) {
+  if (const auto tir = map.MapWith("tir").OptionalPath("tir")) {
     auto file = LoadTyreFile(*tir);
     if (!file) {
-      map.Problem("tir", file.error().id, file.error().Text());
+      map.map().Problem("tir", file.error().id, file.error().Text());
     } else {
       tyre.formula = file.value().formula;
       tyre.model = file.value().model;
-      if (tyre.model && map.Has("magic_formula"))
-        map.Problem("magic_formula", "config.conflicting_keys",
-                    fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
-                                "such coefficients",
-                                file.value().kind));
+      if (tyre.model && map.map().Has("magic_formula"))
+        map.map().Problem("magic_formula", "config.conflicting_keys",
+                          fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
+                                      "such coefficients",
+                                      file.value().kind));
     }
   }
-  const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");
+  const Map& with_formula = map.MapWith("magic_formula");
+  const Map found =
+      map.map().Has("tir") ? with_formula.OptionalChild("magic_formula") : with_formula.Child("magic_formula");
+  const config::DeclaredMap coefficients(found, FormulaKeys());
   for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {
     double& value = tyre.formula.*coefficient.member;
-    value = coefficients.Number(coefficient.name, IsSize(coefficient.name) ? Range::Positive() : Range{}, value);
+    value = coefficients.MapWith(coefficient.name)
+                .Number(coefficient.name, FindKey(FormulaKeys(), coefficient.name)->range, value);
   }
   return tyre;
 }

@@ -13,6 +13,7 @@
 #include "common/runtime/launch/lab_schema.hpp"
 #include "common/runtime/launch/launch_schema.hpp"
 #include "common/traffic/state/traffic_schema.hpp"
+#include "common/vehicle/dynamics/vehicle_schema.hpp"
 #include "common/vehicle/input_devices/keyboard_schema.hpp"
 #include "common/vehicle/input_devices/wheel_schema.hpp"
 
@@ -20,10 +21,10 @@ namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
-  static const std::vector<const config::Schema*> all = {&driver::DriverSchema(),      &launch::LabSchema(),
-                                                         &launch::LaunchSchema(),      &input_devices::KeyboardSchema(),
-                                                         &scenario::ScenarioSchema(),  &traffic::TrafficSchema(),
-                                                         &input_devices::WheelSchema()};
+  static const std::vector<const config::Schema*> all = {
+      &driver::DriverSchema(),          &launch::LabSchema(),        &launch::LaunchSchema(),
+      &input_devices::KeyboardSchema(), &scenario::ScenarioSchema(), &traffic::TrafficSchema(),
+      &dynamics::VehicleSchema(),       &dynamics::FmuSchema(),      &input_devices::WheelSchema()};
   return all;
 }
 
