@@ -13,7 +13,7 @@ namespace rodeira::measures {
 // Time series from elsewhere, as the table of another simulator.
 struct GivenDrive {
   double rate_hz = 0.0;
-  std::map<std::string, std::vector<double>> columns;  // by names of DriveColumns; of one length
+  std::map<std::string, std::vector<double>> columns;                  // by names of DriveColumns; of one length
   double front_m = kMissing, length_m = kMissing, width_m = kMissing;  // of the footprint; missing: not known
 };
 

@@ -62,7 +62,7 @@ std::vector<config::Key> EventKeys() {
   };
 }
 
-config::Schema Make() {
+config::Schema MakeScenarioSchema() {
   config::Schema schema{"scenario", "scenario/1", "Events and weather, for a node of kind 'scenario'.", {}};
   schema.keys = config::FileKeys("scenario/1",
                                  {config::TextKey("name", "", "Name, for the reader."),
@@ -74,7 +74,7 @@ config::Schema Make() {
 }  // namespace
 
 const config::Schema& ScenarioSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeScenarioSchema();
   return schema;
 }
 

@@ -40,7 +40,7 @@ config::Key OpenInteger(config::Key key) {
   return key;
 }
 
-config::Schema Make() {
+config::Schema MakeLaunchSchema() {
   std::vector<config::Key> keys{
       ComputedTextKey("name", "file name", "drive", "Name of the run."),
       ComputedTextKey("world", "none", "plane.yaml", "World file, .xodr or .motors."),
@@ -109,7 +109,7 @@ const std::vector<config::Key>& NodeKeys() {
 }
 
 const config::Schema& LaunchSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeLaunchSchema();
   return schema;
 }
 

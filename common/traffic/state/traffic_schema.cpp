@@ -55,7 +55,7 @@ config::Key LaneChangesKey(const TrafficSettings& t) {
       "Lane changes and overtaking.");
 }
 
-config::Schema Make() {
+config::Schema MakeTrafficSchema() {
   const TrafficSettings t;
   std::vector<config::Key> keys{
       IntegerKey("vehicles", 0, kMaxVehicles, t.vehicles,
@@ -88,7 +88,7 @@ config::Schema Make() {
 }  // namespace
 
 const config::Schema& TrafficSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeTrafficSchema();
   return schema;
 }
 

@@ -18,7 +18,7 @@ using config::NumberKey;
 using config::RequiredNumberKey;
 using config::WithSample;
 
-constexpr double kRadpsPerRpm = geometry::kPi / 30.0;
+constexpr double kRpm_radps = geometry::kPi / 30.0;
 
 // Loads and pressures, which a factor or a shift is not.
 bool IsSize(std::string_view coefficient) {
@@ -137,11 +137,11 @@ const std::vector<Key>& EngineKeys() {
                  RequiredNumberKey("inertia_kgm2", config::Range::Positive(), "Moment of inertia with the flywheel.")),
       RequiredNumberKey("drag_Nm", config::Range::Positive(), "Drag torque at rest."),
       RequiredNumberKey("drag_Nmspr", config::Range::NotNegative(), "Drag torque a speed."),
-      NumberKey("idle_rpm", {0.0, 30000.0}, engine.idle_radps / kRadpsPerRpm, "Idle speed."),
-      NumberKey("stall_rpm", {0.0, 30000.0}, engine.stall_radps / kRadpsPerRpm,
+      NumberKey("idle_rpm", {0.0, 30000.0}, engine.idle_radps / kRpm_radps, "Idle speed."),
+      NumberKey("stall_rpm", {0.0, 30000.0}, engine.stall_radps / kRpm_radps,
                 "Below it combustion ends; below the idle speed."),
-      NumberKey("cut_rpm", {0.0, 30000.0}, engine.cut_radps / kRadpsPerRpm, "The limiter cuts the fuel from here."),
-      NumberKey("resume_rpm", {0.0, 30000.0}, engine.resume_radps / kRadpsPerRpm,
+      NumberKey("cut_rpm", {0.0, 30000.0}, engine.cut_radps / kRpm_radps, "The limiter cuts the fuel from here."),
+      NumberKey("resume_rpm", {0.0, 30000.0}, engine.resume_radps / kRpm_radps,
                 "The limiter ends here; below `cut_rpm`."),
       NumberKey("starter_Nm", config::Range::Positive(), engine.starter_Nm, "Torque of the starter."),
       NumberKey("indicated_efficiency", {0.05, 0.7}, engine.indicated_efficiency, "Efficiency of combustion."),
@@ -180,12 +180,12 @@ const std::vector<Key>& DifferentialKeys() {
 const std::vector<Key>& AutomaticKeys() {
   static const AutomaticSettings automatic;
   static const std::vector<Key> keys{
-      NumberKey("up_light_rpm", {0.0, 30000.0}, automatic.up_light_radps / kRadpsPerRpm,
+      NumberKey("up_light_rpm", {0.0, 30000.0}, automatic.up_light_radps / kRpm_radps,
                 "Change up with little throttle."),
-      NumberKey("up_full_rpm", {0.0, 30000.0}, automatic.up_full_radps / kRadpsPerRpm, "Change up with full throttle."),
-      NumberKey("down_light_rpm", {0.0, 30000.0}, automatic.down_light_radps / kRadpsPerRpm,
+      NumberKey("up_full_rpm", {0.0, 30000.0}, automatic.up_full_radps / kRpm_radps, "Change up with full throttle."),
+      NumberKey("down_light_rpm", {0.0, 30000.0}, automatic.down_light_radps / kRpm_radps,
                 "Change down with little throttle."),
-      NumberKey("down_full_rpm", {0.0, 30000.0}, automatic.down_full_radps / kRadpsPerRpm,
+      NumberKey("down_full_rpm", {0.0, 30000.0}, automatic.down_full_radps / kRpm_radps,
                 "Change down with full throttle."),
       NumberKey("margin", {1.0, 2.0}, automatic.margin, "Distance of a new gear from the change back."),
       NumberKey("pause_s", {0.0, 10.0}, automatic.pause_s, "Time between two changes."),
@@ -194,9 +194,9 @@ const std::vector<Key>& AutomaticKeys() {
       NumberKey("close_s", {0.01, 2.0}, automatic.close_s, "Time to close the clutch."),
       NumberKey("press_s", {0.0, 5.0}, automatic.press_s, "Smoothing of a pedal that is pressed."),
       NumberKey("release_s", {0.0, 20.0}, automatic.release_s, "Smoothing of a pedal that is released."),
-      NumberKey("bite_rpm", {0.0, 30000.0}, automatic.bite_radps / kRadpsPerRpm,
+      NumberKey("bite_rpm", {0.0, 30000.0}, automatic.bite_radps / kRpm_radps,
                 "Engine speed at which the clutch begins to close."),
-      NumberKey("closed_rpm", {0.0, 30000.0}, automatic.closed_radps / kRadpsPerRpm,
+      NumberKey("closed_rpm", {0.0, 30000.0}, automatic.closed_radps / kRpm_radps,
                 "Engine speed at which it is closed; above `bite_rpm`.")};
   return keys;
 }

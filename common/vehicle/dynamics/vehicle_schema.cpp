@@ -18,7 +18,7 @@ std::vector<Key> FirstKeys(std::vector<std::string> models) {
                                                  "Files of this car in other models, for --set vehicle.model=NAME.")});
 }
 
-config::Schema Make() {
+config::Schema MakeVehicleSchema() {
   const Key driven = Required(config::WordKey("driven_axle", {"front", "rear"}, "front", "Driven axle."));
   std::vector<Key> keys = FirstKeys({"bicycle", "ode"});
   for (Key& key : std::vector<Key>{
@@ -47,7 +47,7 @@ config::Schema Make() {
   return {"vehicle", "vehicle/1", "A car of the model 'bicycle' or 'ode'.", std::move(keys)};
 }
 
-config::Schema MakeFmu() {
+config::Schema MakeFmuSchema() {
   std::vector<Key> keys = FirstKeys({"fmu"});
   for (Key& key : std::vector<Key>{
            config::RequiredTextKey("fmu", "car.fmu", "The FMU."),
@@ -61,12 +61,12 @@ config::Schema MakeFmu() {
 }  // namespace
 
 const config::Schema& VehicleSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeVehicleSchema();
   return schema;
 }
 
 const config::Schema& FmuSchema() {
-  static const config::Schema schema = MakeFmu();
+  static const config::Schema schema = MakeFmuSchema();
   return schema;
 }
 

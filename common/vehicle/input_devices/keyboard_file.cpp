@@ -44,7 +44,7 @@ std::vector<config::Key> RateKeys(const PedalRates& usual) {
           config::NumberKey("most", {0.05, 1.0}, usual.most, "How far a held key presses the pedal.")};
 }
 
-config::Schema Make() {
+config::Schema MakeKeyboardSchema() {
   const KeyboardSettings usual;
   std::vector<config::Key> actions;
   for (std::size_t action = 0; action < kActions; ++action) {
@@ -111,7 +111,7 @@ PedalRates ReadRates(const config::DeclaredMap& map) {
 }  // namespace
 
 const config::Schema& KeyboardSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeKeyboardSchema();
   return schema;
 }
 

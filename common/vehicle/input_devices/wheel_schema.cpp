@@ -31,7 +31,7 @@ std::vector<config::Key> MakeAxisKeys(bool two_sided) {
   return keys;
 }
 
-config::Schema Make() {
+config::Schema MakeWheelSchema() {
   const WheelSettings usual;
   std::vector<config::Key> keys{config::TextKey("name", "", "Name, for the reader."),
                                 config::IntegerKey("gears", 1, 20, usual.gears, "Forward gears of the manual mode."),
@@ -103,7 +103,7 @@ const std::vector<config::Key>& ForceKeys() {
 }
 
 const config::Schema& WheelSchema() {
-  static const config::Schema schema = Make();
+  static const config::Schema schema = MakeWheelSchema();
   return schema;
 }
 
