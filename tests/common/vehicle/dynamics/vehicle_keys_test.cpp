@@ -49,7 +49,7 @@ TEST(VehicleKeys, EveryDeclaredKeyKeepsItsTypeAndBounds) {
   for (const std::string axle : {"tyre.front", "tyre.rear"}) {
     const config::Values curve{{axle + ".magic_formula", ""}};
     others[axle + ".slip_curve"] = curve;
-    for (const std::string way : {axle + ".slip_curve.longitudinal", axle + ".slip_curve.lateral"}) {
+    for (const std::string& way : {axle + ".slip_curve.longitudinal", axle + ".slip_curve.lateral"}) {
       others[way] = others[way + ".asymptote_slip"] = others[way + ".extremum_slip"] = curve;
       others[way + ".asymptote_value"] = others[way + ".extremum_value"] = curve;
       others[way + ".extremum_slip"][way + ".asymptote_slip"] = "10";
