@@ -91,9 +91,9 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 if(TARGET rodeira_python_extension)
   # The extension module is of one processor and one version of Python.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), \
-python3-numpy")
+  get_target_property(minor rodeira_python_extension RODEIRA_PYTHON_MINOR)
+  math(EXPR next_minor "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy")
 else()
   set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy")

@@ -108,7 +108,7 @@ TEST_F(OwnNode, KeysOfANodeThatReadsNoneAreRefused) {
     if (in_process) more.push_back("--in-process");
     const Ended ended = Run("never.mcap", more);
     EXPECT_EQ(ended.status, 2) << ended.out;
-    EXPECT_THAT(ended.out, HasSubstr("'lookahead_s'"));
+    EXPECT_THAT(ended.out, HasSubstr("unknown key 'nodes.monitor.config.lookahead_s'"));
   }
 }
 
