@@ -17,8 +17,9 @@ constexpr double kApart_m = 6.0;             // between the middles of the two l
 constexpr double kAside = 0.1;               // … and between their directions, rad
 constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a lane is checked
 constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
-constexpr double kWaitingMargin_m = 3.0;     // before the last place from which a change is possible
-constexpr double kEndMargin_m = 0.5;         // from the end of a change to the end of the lane
+constexpr double kEndNotice_s = 1.5, kEndBraking_mps2 = 1.5;  // within which a lane's end is noticed and stopped for
+constexpr double kWaitingMargin_m = 3.0;                      // before the last place from which a change is possible
+constexpr double kEndMargin_m = 0.5;                          // from the end of a change to the end of the lane
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
   const auto link =
@@ -180,7 +181,11 @@ std::optional<EndingLane> LaneWays::EndAhead(std::uint32_t id) const {
     const AgentTraits& traits = in_.traits[id];
     const double ends = stretch.zero_m + last - kEndMargin_m,
                  waits = ends - kMinLaneChangeLength_m - 0.5 * traits.length_m - kWaitingMargin_m;
-    if (waits - traits.length_m < stretch.begin_m || FrontOf(agent, traits) > waits + kWaitingMargin_m) continue;
+    const double room = waits + kWaitingMargin_m - FrontOf(agent, traits);
+    if (waits - traits.length_m < stretch.begin_m || room < 0.0) continue;
+    // One that comes into sight too late to stop for it, as where it begins to drive, is driven past.
+    const double stops = agent.speed_mps * (kEndNotice_s + agent.speed_mps / (2.0 * kEndBraking_mps2));
+    if (!agent.seeks && stops > room) continue;
     return EndingLane{waits, ends};
   }
   return std::nullopt;
