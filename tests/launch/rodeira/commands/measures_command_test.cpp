@@ -158,7 +158,7 @@ TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
 // The report of the same recording has its way on the lanes and its measures, and names wrong options.
 TEST_F(MeasuresCommand, AReportIsOnePage) {
   ReportOptions options;
-  options.recordings = {Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "3"})};
+  options.recordings = {Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "6"})};
   options.intervals = {"fast=while speed_mps > 1"};
   options.out = Path("report.html");
   const Said said = SaidBy<ReportOptions>(Report, options);
