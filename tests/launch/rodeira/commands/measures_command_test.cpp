@@ -166,7 +166,8 @@ TEST_F(MeasuresCommand, AReportIsOnePage) {
   const std::string page = ReadBack("report.html");
   EXPECT_THAT(page, HasSubstr("Way of drive"));
   EXPECT_THAT(page, HasSubstr("<path d='M")) << "lanes";
-  EXPECT_THAT(page, HasSubstr(">gap_min_m</th><td>m</td><td class=\"number\">"));
+  EXPECT_THAT(page, HasSubstr(">speed_max_mps</th><td>m/s</td><td class=\"number\">"));
+  EXPECT_THAT(page, HasSubstr(">gap_min_m</th><td>m</td><td class=\""));
   options.out = Path("report.pdf");
   const Said pdf = SaidBy<ReportOptions>(Report, options);
   EXPECT_EQ(pdf.status, 2);
