@@ -16,6 +16,7 @@
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/system/ends_table.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
 
@@ -37,16 +38,7 @@ struct Row {
 
 std::vector<Row> ReadRows() {
   std::vector<Row> rows;
-  std::ifstream page(SourceDir() + "/docs/reference/ends.md");
-  for (std::string line; std::getline(page, line);) {
-    std::vector<std::string> columns;
-    std::istringstream in(line);
-    for (std::string column; std::getline(in, column, '|');) {
-      std::erase(column, '`');
-      const auto begin = column.find_first_not_of(' ');
-      columns.push_back(begin == std::string::npos ? ""
-                                                   : column.substr(begin, column.find_last_not_of(' ') - begin + 1));
-    }
+  for (const std::vector<std::string>& columns : EndsTableLines()) {
     if (columns.size() == 6 && kCauses.contains(columns[1]))
       rows.push_back({columns[1], columns[2], {columns[3], columns[4], columns[5]}});
   }

@@ -18,6 +18,7 @@
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
+#include "tests/system/ends_table.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
 
@@ -35,16 +36,7 @@ struct Cell {
 
 std::vector<Cell> ReadTable() {
   std::vector<Cell> cells;
-  std::ifstream page(SourceDir() + "/docs/reference/ends.md");
-  for (std::string line; std::getline(page, line);) {
-    std::vector<std::string> columns;
-    std::istringstream in(line);
-    for (std::string column; std::getline(in, column, '|');) {
-      std::erase(column, '`');
-      const auto begin = column.find_first_not_of(' ');
-      columns.push_back(begin == std::string::npos ? ""
-                                                   : column.substr(begin, column.find_last_not_of(' ') - begin + 1));
-    }
+  for (const std::vector<std::string>& columns : EndsTableLines()) {
     if (columns.size() != 7 || !columns[2].starts_with("SIG")) continue;
     for (std::size_t p = 0; p < kPolicies.size(); ++p)
       cells.push_back({columns[1], columns[2], columns[3], kPolicies[p], columns[4 + p]});
