@@ -8,6 +8,11 @@
 #include "common/runtime/lockstep/life.hpp"
 
 namespace rodeira::lockstep {
+namespace {
+
+const std::string kNotHeard = "no message from it";
+
+}  // namespace
 
 Watchdog::Watchdog(const Roster& roster, const Settings& settings)
     : roster_(roster), settings_(settings), incarnations_(roster.nodes().size()) {}
@@ -63,8 +68,10 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
   std::string missing;
   for (NodeIndex n = 0; n < incarnations_.size(); ++n) {
     const Incarnation& incarnation = incarnations_[n];
-    if (!incarnation.heard || incarnation.report.phase < Phase::kReady)
-      missing += (missing.empty() ? "'" : ", '") + roster_.node(n).name + "'";
+    if (incarnation.heard && incarnation.report.phase >= Phase::kReady) continue;
+    const std::string& does = incarnation.heard ? incarnation.report.message : kNotHeard;
+    missing += fmt::format("{}'{}'{}", missing.empty() ? "" : ", ", roster_.node(n).name,
+                           does.empty() ? "" : fmt::format(" ({})", does));
   }
   if (recovering_ && missing.empty()) {
     recovering_ = false;

@@ -122,8 +122,23 @@ TEST_F(WatchdogTest, SaysWhichNodesAreMissingAtTheStart) {
     fault = dog_.Check(now, grant_);
   }
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
+  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view' (no message from it)");
   EXPECT_EQ(fault->node, 1u);
+}
+
+TEST_F(WatchdogTest, SaysWhatAMissingNodeWaitsFor) {
+  std::optional<Watchdog::Fault> fault;
+  for (std::int64_t now = 0; now <= 5200 && !fault; now += 100) {
+    Hear(0, now, Phase::kReady, Waiting::kGrant);
+    Report report;
+    report.node = 1;
+    report.message = "waits for the road server's world since 4.9 s";
+    dog_.Heard(report, now);
+    fault = dog_.Check(now, grant_);
+  }
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->reason,
+            "after 5 s these are still missing: 'view' (waits for the road server's world since 4.9 s)");
 }
 
 TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
@@ -233,7 +248,7 @@ TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
   }
   const auto fault = dog_.Check(6050, grant_);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
+  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view' (no message from it)");
 }
 
 TEST_F(WatchdogTest, ASuspendedNodeIsNotNamedUntilItGoesOn) {
