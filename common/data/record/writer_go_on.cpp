@@ -38,6 +38,16 @@ const ChunkInfo* LastWhole(const Scan& scan) {
   }
   return nullptr;
 }
+// The latest time of all chunks up to the last whole one. That one may hold only messages of before: the run's log is
+// written when it comes.
+std::uint64_t EndNs(const Scan& scan, const ChunkInfo* last_whole) {
+  std::uint64_t end_ns = 0;
+  for (const ChunkInfo& chunk : scan.contents.chunks) {
+    if (last_whole != nullptr && chunk.offset <= last_whole->offset && !chunk.unchunked)
+      end_ns = std::max(end_ns, chunk.last_log_time_ns);
+  }
+  return end_ns;
+}
 std::uint64_t EndOf(const ChunkInfo& chunk) { return chunk.offset + chunk.record_bytes + chunk.index_bytes; }
 
 base::Status HandInTail(const Source& source, const Contents& contents, const McapWriter::Tail& tail) {
@@ -73,7 +83,7 @@ base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::
     if (!scanned) return scanned.error();
     scan = std::move(scanned).value();
     const ChunkInfo* last = LastWhole(scan);
-    if (const std::uint64_t end_ns = last == nullptr ? 0 : last->last_log_time_ns; end_ns < tail.least_end_ns) {
+    if (const std::uint64_t end_ns = EndNs(scan, last); end_ns < tail.least_end_ns) {
       return base::Failed("recording.damaged",
                           fmt::format("the recording can be read up to {} only, though it held more than {}: it was "
                                       "damaged meanwhile{}{}; it is left as it is",

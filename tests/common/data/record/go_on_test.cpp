@@ -112,6 +112,22 @@ TEST_F(GoOn, WhatWasDamagedMeanwhileIsLeftAsItIs) {
   EXPECT_LT(handed_.back(), 50u);
 }
 
+// As a log's message that comes after later samples have gone to the disk.
+TEST_F(GoOn, ALastChunkOfEarlierMessagesIsNoDamage) {
+  auto writer = McapWriter::Open(folder_ / "late.mcap", Settings());
+  ASSERT_TRUE(writer.ok());
+  ASSERT_TRUE(WriteFrom(writer.value(), 0, 57).ok() && writer.value().Sync().ok());
+  const auto log = writer.value().AddChannel("log", 0, "cdr");
+  ASSERT_TRUE(log.ok());
+  ASSERT_TRUE(writer.value().Write(log.value(), 0, 40, 40, base::Bytes(8)).ok() && writer.value().Sync().ok());
+  Put(base::ReadBytes(folder_ / "late.mcap").value());  // before it is closed
+  EXPECT_FALSE(Go(561).ok()) << "560 ns is the last message's time";
+  const auto gone_on = Go(560);
+  ASSERT_TRUE(gone_on.ok()) << gone_on.error().Text();
+  ASSERT_TRUE(gone_on.value().has_value());
+  EXPECT_EQ(std::ssize(handed_), 58);
+}
+
 TEST_F(GoOn, AFileWithoutAChunkHoldsNothing) {
   ASSERT_TRUE(McapWriter::Open(file_, Settings()).ok());
   auto writer = Go(0);
