@@ -51,7 +51,9 @@ class ViewNode final : public lockstep::Node {
 
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
-    if (render_thread_ == nullptr || !render_thread_->has_window()) return {};
+    if (render_thread_ == nullptr) return {};
+    if (auto status = render_thread_->status(); !status) return status;
+    if (!render_thread_->has_window()) return {};
     if (auto status = TellEvents(inbox); !status) return status;
     auto moment = nodes::MakeMoment(roster_, info.step, newest_);
     if (!moment) return moment.error();

@@ -229,6 +229,10 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
       frames.Problem("folder", status.error().id, status.error().message);
   }
   if (auto status = context.launch().file().Finish(); !status) return status.error();
+  const auto& nodes = context.launch().nodes();
+  settings.waits_for_picture =
+      settings.headset || (!settings.frame_steps.empty() && settings.frame_steps.front() == 0) ||
+      std::any_of(nodes.begin(), nodes.end(), [](const launch::LaunchNode& node) { return node.is_live(); });
   return settings;
 }
 

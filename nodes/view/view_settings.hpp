@@ -34,6 +34,7 @@ struct ViewSettings {
   std::optional<scene::ScreenPlane> screen;  // of the laboratory, for the driver's camera
   std::optional<Quality> quality;            // none: the renderer's own (Surface::Open)
   bool headset = false;                      // the driver's place is shown there too
+  bool waits_for_picture = true;  // the run begins when everything is drawn once; else when the world is read
   bool full_screen = false;
   int display = 0;  // of the PC, for the window
   WindowWish window = WindowWish::kAuto;

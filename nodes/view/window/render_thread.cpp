@@ -13,6 +13,11 @@
 #include "nodes/view/window/view_window.hpp"
 
 namespace rodeira::nodes {
+namespace {
+
+constexpr std::size_t kMaxOrders = 32;
+
+}  // namespace
 
 struct RenderThread::State {
   std::unique_ptr<ViewWindow> screen;
@@ -76,8 +81,15 @@ void RenderThread::Tell(const std::vector<scenario::Event>& events) {
   told_.insert(told_.end(), events.begin(), events.end());
 }
 
-base::Status RenderThread::Order(Picture picture, std::filesystem::path file) {
+base::Status RenderThread::status() const {
   const std::lock_guard lock(mutex_);
+  return written_;
+}
+
+base::Status RenderThread::Order(Picture picture, std::filesystem::path file) {
+  const base::WaitNote note("pictures to be written");
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return orders_.size() < kMaxOrders || !written_; });
   if (!written_) return written_;
   orders_.push_back({std::move(picture), std::move(file)});
   changed_.notify_all();
@@ -93,17 +105,33 @@ base::Status RenderThread::Drain() {
 
 void RenderThread::Run() {
   State hand;
-  base::Status status = SetUp(hand);
+  std::unique_ptr<Surface> surface;
+  std::filesystem::path built;
+  base::Status status = ReadFirst(surface, built);
+  const bool draws = status.ok() && surface != nullptr;
+  if (draws) {
+    if (!settings_.waits_for_picture) Answer({}, hand, true);
+    status = SetUp(hand, std::move(surface), std::move(built));
+  }
   const bool go_on = status.ok() && hand.screen != nullptr;
+  Answer(std::move(status), hand, go_on);
+  if (go_on) Loop(hand);
+}
+
+void RenderThread::Answer(base::Status status, const State& hand, bool draws) {
   {
     const std::lock_guard lock(mutex_);
-    set_up_ = std::move(status);
-    nothing_to_draw_ = hand.screen == nullptr;
-    window_ = go_on && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
-    ready_ = true;
+    window_ = status.ok() && hand.screen != nullptr &&
+              (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+    if (!ready_) {
+      nothing_to_draw_ = !draws;
+      set_up_ = std::move(status);
+      ready_ = true;
+    } else if (!status) {
+      written_ = std::move(status);
+    }
   }
   changed_.notify_all();
-  if (go_on) Loop(hand);
 }
 
 // Null where there is nothing to draw here.
@@ -121,15 +149,18 @@ base::Status RenderThread::OpenSurfaceFor(std::unique_ptr<Surface>& surface) con
   return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
 }
 
-base::Status RenderThread::SetUp(State& hand) {
-  std::unique_ptr<Surface> surface;
+base::Status RenderThread::ReadFirst(std::unique_ptr<Surface>& surface, std::filesystem::path& built) {
   if (auto status = OpenSurfaceFor(surface); !status) return status;
   auto shown = ReadBefore(surface.get(), reader_);
   if (!shown) return shown.error();
-  if (surface == nullptr) return {};
   world_ = std::move(shown.value().world);
+  built = std::move(shown.value().built);
+  return {};
+}
+
+base::Status RenderThread::SetUp(State& hand, std::unique_ptr<Surface> surface, std::filesystem::path built) {
   ViewSettings settings = settings_;
-  settings.built = std::move(shown.value().built);
+  settings.built = std::move(built);
   const std::string own = WindowHelp(settings_.mouse_button),
                     help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
   auto screen = ViewWindow::Open(std::move(surface), settings, *world_, help);

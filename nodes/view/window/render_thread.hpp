@@ -25,6 +25,7 @@ namespace rodeira::nodes {
 class RenderThread {
  public:
   // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read.
+  // Without settings.waits_for_picture it waits for the surface and the world only, and what fails later is status().
   // Null where the settings want no picture here: no frames, and no window or no display for one. Wrong input where a
   // display or OpenGL is missing. `keys` is told what is held in the window; null where it drives nothing.
   // `requests`: what is asked for there; null where no node takes any. `reader`: what is wrong there is the answer;
@@ -44,8 +45,9 @@ class RenderThread {
   void Show(scene::SceneSnapshot moment);
   // What the run's scenario has said. Never waits.
   void Tell(const std::vector<scenario::Event>& events);
-  // Orders exactly this picture as a PNG file. Never waits; a caller that orders without end drains between. The first
-  // order that failed is every later one's answer.
+  // The first thing that failed while pictures were prepared or written.
+  base::Status status() const;
+  // Orders exactly this picture as a PNG file. Waits while many orders are not written. The answer is status().
   base::Status Order(Picture picture, std::filesystem::path file);
   // Waits until all orders are written.
   base::Status Drain();
@@ -59,7 +61,11 @@ class RenderThread {
   RenderThread(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
                std::unique_ptr<launch::LiveRequestsSender> requests);
   void Run();
-  base::Status SetUp(State& hand);
+  // The surface, null where there is nothing to draw here, and the world.
+  base::Status ReadFirst(std::unique_ptr<Surface>& surface, std::filesystem::path& built);
+  base::Status SetUp(State& hand, std::unique_ptr<Surface> surface, std::filesystem::path built);
+  // What Open or, if that has returned, status() says.
+  void Answer(base::Status status, const State& hand, bool draws);
   base::Status OpenSurfaceFor(std::unique_ptr<Surface>& surface) const;
   void Loop(State& hand);
   void ServeOrder(State& hand, std::unique_lock<std::mutex>& lock);
