@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "common/analysis/measures/catalogue.hpp"
@@ -12,9 +14,12 @@ namespace {
 
 const std::vector<OptionInfo> kFollowedOptions{{"max_gap_m", 150, 1, 250, "a leader farther ahead is none"},
                                                {"max_time_gap_s", 6, 0.1, 60, "the same in time"},
+                                               {"near_gap_m", 20, 0, 250, "a nearer leader counts at any speed"},
                                                {"min_speed_mps", 0.1, 0, 50, "below, a time gap is missing"}};
 
-FollowedOptions FollowedOf(const OptionValues& o) { return {o["max_gap_m"], o["max_time_gap_s"], o["min_speed_mps"]}; }
+FollowedOptions FollowedOf(const OptionValues& o) {
+  return {o["max_gap_m"], o["max_time_gap_s"], o["near_gap_m"], o["min_speed_mps"]};
+}
 
 std::vector<double> GapIn(const DriveCut& cut, const OptionValues& o) {
   return FollowedGap(cut(cut.drive.leader.gap_m), cut(cut.drive.speed_mps), FollowedOf(o));
@@ -22,14 +27,23 @@ std::vector<double> GapIn(const DriveCut& cut, const OptionValues& o) {
 
 // Without a leader within the limits all of these are missing for the same reason.
 Measure OfLeader(Measure measure, const DriveCut& cut, const OptionValues& o) {
-  if (!measure.value && CountValid(GapIn(cut, o)) == 0) measure.reason = "no leader";
+  if (!measure.value && CountValid(GapIn(cut, o)) == 0) {
+    const auto nearest_m = Minimum(cut(cut.drive.leader.gap_m));
+    measure.reason = nearest_m ? fmt::format("no leader within the limits; the nearest is {:.1f} m ahead", *nearest_m)
+                               : std::string("no leader");
+  }
   const UsedOptions used = UsedOf(FollowedOf(o));
   measure.options.insert(measure.options.end(), used.begin(), used.end());
   return measure;
 }
 
 std::vector<double> TimeGapIn(const DriveCut& cut, const OptionValues& o) {
-  return TimeGap(GapIn(cut, o), cut(cut.drive.speed_mps), o["min_speed_mps"]);
+  return TimeGap(GapIn(cut, o), cut(cut.drive.speed_mps), FollowedOf(o));
+}
+
+Measure OfTimeGap(Measure measure, const DriveCut& cut, const OptionValues& o) {
+  if (!measure.value) measure.reason = "behind a leader, no time gap is within the limits";
+  return OfLeader(std::move(measure), cut, o);
 }
 
 std::vector<double> TtcIn(const DriveCut& cut, Series gap) {
@@ -84,10 +98,10 @@ std::vector<MeasureInfo> LeaderMeasures() {
        [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(GapIn(cut, o), "m"), cut, o); }},
       {"time_gap_mean_s", family, "mean time gap", "mean of gap / own speed", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(TimeGapIn(cut, o), "s"), cut, o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfTimeGap(MeanOf(TimeGapIn(cut, o), "s"), cut, o); }},
       {"time_gap_min_s", family, "least time gap", "min of gap / own speed", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(TimeGapIn(cut, o), "s"), cut, o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfTimeGap(MinimumOf(TimeGapIn(cut, o), "s"), cut, o); }},
       {"headway_mean_m", family, "mean headway", "mean of gap + leader's length", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/analysis/measures/gap.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/analysis/measures/statistics.hpp"
@@ -10,22 +11,26 @@ namespace rodeira::measures {
 UsedOptions UsedOf(const FollowedOptions& options) {
   return Used({{"max_gap_m", options.max_gap_m},
                {"max_time_gap_s", options.max_time_gap_s},
+               {"near_gap_m", options.near_gap_m},
                {"min_speed_mps", options.min_speed_mps}});
 }
 
 std::vector<double> FollowedGap(Series gap_m, Series own_mps, const FollowedOptions& options) {
   std::vector<double> gap(gap_m.begin(), gap_m.end());
   for (std::size_t i = 0; i < gap.size(); ++i) {
-    const bool moves = own_mps[i] >= options.min_speed_mps;
-    if (gap[i] > options.max_gap_m || (moves && gap[i] / own_mps[i] > options.max_time_gap_s)) gap[i] = kMissing;
+    const double reach_m =
+        std::isnan(own_mps[i]) ? options.max_gap_m : std::max(options.near_gap_m, options.max_time_gap_s * own_mps[i]);
+    if (gap[i] > std::min(reach_m, options.max_gap_m)) gap[i] = kMissing;
   }
   return gap;
 }
 
-std::vector<double> TimeGap(Series gap_m, Series own_mps, double min_speed_mps) {
+std::vector<double> TimeGap(Series gap_m, Series own_mps, const FollowedOptions& options) {
   std::vector<double> time(gap_m.size(), kMissing);
   for (std::size_t i = 0; i < time.size(); ++i) {
-    if (own_mps[i] >= min_speed_mps) time[i] = gap_m[i] / own_mps[i];
+    if (own_mps[i] < options.min_speed_mps) continue;
+    const double gap_s = gap_m[i] / own_mps[i];
+    if (gap_s <= options.max_time_gap_s) time[i] = gap_s;
   }
   return time;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/analysis/measures/catalogue.hpp"
 #include "common/analysis/measures/gap.hpp"
 #include "tests/common/analysis/measures/signals.hpp"
 
@@ -66,7 +67,7 @@ TEST(Conflict, WithoutALeaderAllIsMissing) {
   EXPECT_EQ(LeastTtc(away, gap).reason, "the vehicle never closes in");
 }
 
-// A leader beyond 150 m or 6 s is none; a standing vehicle has a gap and no time gap.
+// A leader beyond 150 m, or beyond 6 s and 20 m, is none; a standing vehicle has a gap and no time gap.
 TEST(Conflict, LeadersBeyondTheLimitsAreNone) {
   const std::vector<double> gap{20.0, 160.0, 130.0, 5.0, kMissing}, own{10.0, 40.0, 20.0, 0.0, 10.0};
   const auto followed = FollowedGap(gap, own, {});
@@ -74,11 +75,67 @@ TEST(Conflict, LeadersBeyondTheLimitsAreNone) {
   EXPECT_TRUE(std::isnan(followed[1])) << "160 m";
   EXPECT_TRUE(std::isnan(followed[2])) << "6.5 s";
   EXPECT_EQ(followed[3], 5.0);
-  const auto time = TimeGap(followed, own, 0.1);
+  const auto time = TimeGap(followed, own, {});
   EXPECT_EQ(time[0], 2.0);
   EXPECT_TRUE(std::isnan(time[3]));
   EXPECT_EQ(*LeaderShare(followed, {}).value, 0.4);
   EXPECT_EQ(Headway(gap, std::vector<double>(5, 4.5))[0], 24.5);
+}
+
+// A queue that creeps: 8 m behind a leader, from 0 to 3 m/s. The leader counts at every speed; the time gap only where
+// it is at most 6 s, from 4/3 m/s on.
+TEST(Conflict, AQueueThatCreepsKeepsItsLeader) {
+  const auto own = Sampled(3.0, kRate, [](double t) { return t; });
+  const std::vector<double> gap(own.size(), 8.0);
+  const auto followed = FollowedGap(gap, own, {});
+  EXPECT_EQ(*LeaderShare(followed, {}).value, 1.0);
+  const auto time = TimeGap(followed, own, {});
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (own[i] * 6.0 < 8.0)
+      EXPECT_TRUE(std::isnan(time[i])) << own[i];
+    else
+      EXPECT_EQ(time[i], 8.0 / own[i]);
+  }
+}
+
+// The limit is continuous in the speed: 20 m up to 10/3 m/s, 6 s, and 150 m from 25 m/s on; in reverse 20 m, and 150 m
+// where the speed is not known.
+TEST(Conflict, TheLimitOfALeaderGrowsWithTheSpeed) {
+  const auto counts = [](double gap_m, double own_mps) {
+    return !std::isnan(FollowedGap(std::vector{gap_m}, std::vector{own_mps}, {})[0]);
+  };
+  const double limits[][2] = {{0.0, 20.0},  {0.05, 20.0},  {0.2, 20.0},   {3.3, 20.0},  {5.0, 30.0},
+                              {10.0, 60.0}, {25.0, 150.0}, {40.0, 150.0}, {-2.0, 20.0}, {kMissing, 150.0}};
+  for (const auto& [own_mps, limit_m] : limits) {
+    EXPECT_TRUE(counts(limit_m - 1e-6, own_mps)) << own_mps;
+    EXPECT_FALSE(counts(limit_m + 1e-6, own_mps)) << own_mps;
+  }
+}
+
+// Behind a leader beyond the limits the share is 0, and the missing values name the nearest one.
+TEST(Conflict, ALeaderBeyondTheLimitsIsNamed) {
+  Drive drive;
+  GrowColumns(drive, 4);
+  drive.speed_mps = {2.0, 2.0, 2.0, 2.0};
+  drive.road = {0.0, 0.0, 0.0, 0.0};
+  drive.leader.gap_m = {44.0, 41.5, 47.0, kMissing};
+  drive.leader.speed_mps = {1.0, 1.0, 1.0, kMissing};
+  const auto measured = [&](const char* name, const std::map<std::string, double>& given) {
+    const MeasureInfo& info = *FindMeasure(name).value();
+    return info.compute({drive, 0, 4, {}}, OptionValues(info.options, given));
+  };
+  EXPECT_EQ(measured("leader_share", {}).value, 0.0);
+  for (const char* name : {"gap_mean_m", "gap_min_m", "time_gap_min_s", "headway_mean_m", "ttc_min_s", "tet_s"}) {
+    EXPECT_FALSE(measured(name, {}).value) << name;
+    EXPECT_EQ(measured(name, {}).reason, "no leader within the limits; the nearest is 41.5 m ahead") << name;
+  }
+  const std::map<std::string, double> far{{"max_time_gap_s", 22.0}};
+  EXPECT_EQ(measured("leader_share", far).value, 0.5) << "22 and 20.75 s";
+  EXPECT_EQ(measured("gap_min_m", far).value, 41.5);
+  EXPECT_EQ(measured("ttc_min_s", far).value, 41.5);
+  EXPECT_EQ(measured("time_gap_min_s", far).value, 20.75);
+  drive.leader.gap_m.assign(4, kMissing);
+  EXPECT_EQ(measured("gap_min_m", far).reason, "no leader");
 }
 
 }  // namespace

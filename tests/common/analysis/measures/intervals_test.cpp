@@ -107,8 +107,9 @@ TEST_F(MeasuresFile, ItsSidecarReadsBackTheSame) {
   const auto again = Read(first);
   ASSERT_TRUE(again.ok()) << again.error().Text() << first;
   EXPECT_EQ(SidecarText(again.value(), {}, {}), first);
-  EXPECT_NE(first.find("tet_s: {max_gap_m: 150, max_time_gap_s: 6, min_speed_mps: 0.1, threshold_s: 1.5}"),
-            std::string::npos)
+  EXPECT_NE(
+      first.find("tet_s: {max_gap_m: 150, max_time_gap_s: 6, near_gap_m: 20, min_speed_mps: 0.1, threshold_s: 1.5}"),
+      std::string::npos)
       << first;
 }
 

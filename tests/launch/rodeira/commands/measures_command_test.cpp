@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <map>
 
 #include "common/core/base/files.hpp"
@@ -155,11 +156,40 @@ TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
   EXPECT_EQ(row.at("brake_onset_s"), "");
 }
 
-// The report of the same recording has its way on the lanes and its measures, and names wrong options.
+// The report of the same recording has its way on the lanes and its measures, and names wrong options. Its least gap is
+// that of the time series.
 TEST_F(MeasuresCommand, AReportIsOnePage) {
+  const std::string drive = Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "6"});
+  // The leader draws away: it is more than 6 s ahead.
+  std::ofstream(Path("far.yaml"))
+      << "rodeira: measures/1\nmeasures: [speed_max_mps, leader_share, gap_min_m, time_gap_min_s]\noptions:\n"
+         "  leader_share: {max_time_gap_s: 30}\n  gap_min_m: {max_time_gap_s: 30}\n"
+         "intervals: [{name: fast, while: speed_mps > 1}]\n";
+  MeasuresOptions table;
+  table.recordings = {drive};
+  table.spec = Path("far.yaml");
+  table.series = Path("series.csv");
+  table.out = Path("long.csv");
+  table.long_format = true;
+  ASSERT_EQ(Of(table).status, 0);
+  double least_m = 1e9, share = 0.0, fast = 0.0;
+  for (const auto& row : Rows(ReadBack("series.csv"))) {
+    if (std::stod(row.at("speed_mps")) <= 1.0) continue;
+    fast += 1.0;
+    if (row.at("leader_gap_m").empty() || std::stod(row.at("time_gap_s")) > 30.0) continue;
+    share += 1.0;
+    least_m = std::min(least_m, std::stod(row.at("leader_gap_m")));
+  }
+  ASSERT_GT(share, 200.0) << "two seconds with a leader";
+  std::map<std::string, std::map<std::string, std::string>> values;
+  for (const auto& row : Rows(ReadBack("long.csv"))) values[row.at("measure")] = row;
+  EXPECT_NEAR(std::stod(values.at("gap_min_m").at("value")), least_m, 1e-9);
+  EXPECT_NEAR(std::stod(values.at("leader_share").at("value")), share / fast, 1e-9);
+  EXPECT_THAT(values.at("time_gap_min_s").at("missing"), HasSubstr("no leader within the limits; the nearest is "));
+
   ReportOptions options;
-  options.recordings = {Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "6"})};
-  options.intervals = {"fast=while speed_mps > 1"};
+  options.recordings = {drive};
+  options.spec = Path("far.yaml");
   options.out = Path("report.html");
   const Said said = SaidBy<ReportOptions>(Report, options);
   ASSERT_EQ(said.status, 0) << said.errors;
@@ -167,12 +197,15 @@ TEST_F(MeasuresCommand, AReportIsOnePage) {
   EXPECT_THAT(page, HasSubstr("Way of drive"));
   EXPECT_THAT(page, HasSubstr("<path d='M")) << "lanes";
   EXPECT_THAT(page, HasSubstr(">speed_max_mps</th><td>m/s</td><td class=\"number\">"));
-  EXPECT_THAT(page, HasSubstr(">gap_min_m</th><td>m</td><td class=\""));
+  const std::string cell = ">gap_min_m</th><td>m</td><td class=\"number\">";
+  ASSERT_THAT(page, HasSubstr(cell));
+  EXPECT_NEAR(std::stod(page.substr(page.find(cell) + cell.size())), least_m, 0.06);
   options.out = Path("report.pdf");
   const Said pdf = SaidBy<ReportOptions>(Report, options);
   EXPECT_EQ(pdf.status, 2);
   EXPECT_THAT(pdf.errors, HasSubstr("a report is written as .html"));
   options.out = Path("other.html");
+  options.spec.clear();
   options.intervals = {"fast=while sped_mps > 1"};
   const Said wrong = SaidBy<ReportOptions>(Report, options);
   EXPECT_EQ(wrong.status, 2);
