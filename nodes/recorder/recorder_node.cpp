@@ -45,6 +45,12 @@ class RecorderNode final : public lockstep::Node {
 
   // A file of its own, or that of an earlier incarnation.
   base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
+    if (auto status = OpenFile(context, meta); !status) return status;
+    bytes_when_told_ = writer_->written_bytes();
+    return {};
+  }
+
+  base::Status OpenFile(launch::NodeContext& context, const record::TextMap& meta) {
     if (auto status = AskForTheWorld(context); !status) return status;
     record::WriterSettings settings;
     settings.profile = kProfile;
@@ -200,7 +206,6 @@ class RecorderNode final : public lockstep::Node {
   }
   base::Status Write(const lockstep::Sample& sample) {
     has_samples_ = true;
-    const std::uint64_t written_bytes = writer_->written_bytes();
     payload_ = *sample.payload;
     std::memset(payload_.data() + lockstep::SampleHeader::kIncarnationAt, 0,
                 4);  // which incarnation it was is no part of the run
@@ -209,9 +214,15 @@ class RecorderNode final : public lockstep::Node {
     if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status)
       return status;
     written_.Note(sample.valid(), sample.source());
-    // Whatever went out before this sample was put into a chunk of its own is beyond harm.
-    if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
+    TellSafeBefore(sample.valid());
     return {};
+  }
+  // Of the first sample since a chunk went to the file: what came before that one lies in it. Messages of the log close
+  // chunks too.
+  void TellSafeBefore(lockstep::Step valid) {
+    const std::uint64_t bytes = writer_->written_bytes();
+    if (tell_safe_ && bytes != bytes_when_told_) tell_safe_(valid - 1);
+    bytes_when_told_ = bytes;
   }
   // By an earlier incarnation: the file is in the order of (step, source).
   bool IsWritten(const lockstep::Sample& sample) const {
@@ -229,6 +240,7 @@ class RecorderNode final : public lockstep::Node {
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;
+  std::uint64_t bytes_when_told_ = 0;
   lockstep::Step last_step_ = -1;  // of an earlier incarnation's last sample
   lockstep::SourceIndex last_source_ = 0;
 };

@@ -137,8 +137,7 @@ TEST_F(WatchdogTest, SaysWhatAMissingNodeWaitsFor) {
     fault = dog_.Check(now, grant_);
   }
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason,
-            "after 5 s these are still missing: 'view' (waits for the road server's world since 4.9 s)");
+  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view' (waits for the road server's world since 4.9 s)");
 }
 
 TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
