@@ -18,11 +18,11 @@ bool HasOneLimit(const lanes::Graph& graph, std::uint32_t track) {
   const network::Road& road = graph.network().roads()[key.road];
   const double from = road.spec().sections[key.section].s_m, to = road.spec().sections[key.section].end_s_m;
   const auto changes = [&](double s_m) { return s_m > from && s_m <= to; };
-  const auto& speeds = graph.network().Find(key)->speeds;
-  return std::none_of(speeds.begin(), speeds.end(),
-                      [&](const network::SpeedLimit& limit) { return changes(limit.s_m); }) &&
-         std::none_of(road.spec().types.begin(), road.spec().types.end(),
-                      [&](const network::RoadType& type) { return changes(type.s_m); });
+  const auto stays = [&](const auto& records) {
+    return std::none_of(records.begin(), records.end(), [&](const auto& record) { return changes(record.s_m); });
+  };
+  const network::Lane& lane = *graph.network().Find(key);
+  return stays(lane.speeds) && stays(lane.sign_speeds) && stays(road.spec().types);
 }
 
 // To which side a track turns that is one of several ways on.

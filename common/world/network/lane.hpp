@@ -87,6 +87,14 @@ struct SpeedLimit {
   double speed_mps = 0.0;
 };
 
+// The limit by signs from a station on until the next one; nothing: no sign is in force.
+struct SignSpeed {
+  double s_m = 0.0;
+  std::optional<double> speed_mps;
+
+  bool operator==(const SignSpeed&) const = default;
+};
+
 struct LaneMaterial {
   double s_m = 0.0;
   std::string surface;
@@ -127,6 +135,7 @@ struct Lane {
   std::vector<LaneHeight> heights;
   std::vector<RoadMark> marks;
   std::vector<SpeedLimit> speeds;
+  std::vector<SignSpeed> sign_speeds;  // ascending; the network sets them from its signs
   std::vector<LaneMaterial> materials;
   std::vector<LaneAccess> access;
   std::vector<int> predecessors;  // ids in the section before, or in the road's predecessor

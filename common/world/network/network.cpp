@@ -6,6 +6,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/world/network/junction_ground.hpp"
+#include "common/world/network/sign_limits.hpp"
 
 namespace rodeira::network {
 
@@ -27,6 +28,17 @@ Network::Network(NetworkSpec spec)
     if (junction.ground != nullptr) grounds_.push_back(junction.ground.get());
   }
   Link();
+  SetSignSpeeds();
+}
+
+void Network::SetSignSpeeds() {
+  const auto speeds = SignSpeeds(*this);
+  for (const LaneKey& key : Lanes()) {
+    LaneSection& section = spec_.roads[key.road].spec_.sections[key.section];
+    Lane& lane = key.lane > 0 ? section.left[static_cast<std::size_t>(key.lane - 1)]
+                              : section.right[static_cast<std::size_t>(-key.lane - 1)];
+    lane.sign_speeds = speeds.empty() ? std::vector<SignSpeed>() : speeds[Number(key)];
+  }
 }
 
 const JunctionGround* Network::GroundAt(const Eigen::Vector2d& p_W) const {

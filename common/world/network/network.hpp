@@ -183,6 +183,7 @@ class Network {
   void Link();
   void LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool at_end);
   void LinkJunctions();
+  void SetSignSpeeds();
   void Join(const LaneEnd& a, const LaneEnd& b);
 
   NetworkSpec spec_;

@@ -98,6 +98,7 @@ LateralPoint Road::LaneHeightAt(const LaneSpan& span, double s_m, double t_m) co
 
 SurfaceSample Road::Surface(double s_m, double t_m) const {
   const LaneSection& section = SectionAt(s_m);
+  if (!shaped_) return Surface(s_m, t_m, section, {});
   double outside;
   const LaneSpan span = section.At(t_m, CentreAt(s_m), s_m, outside);
   return Surface(s_m, t_m, section, span);
@@ -215,10 +216,16 @@ double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double h
   return DistanceToEdgeOn(*this, nullptr, p_W, low_s_m, high_s_m, t_m, s_m);
 }
 
-std::optional<double> Road::SpeedLimitAt(const Lane& lane, double s_m) const {
+std::optional<double> Road::SaidSpeedLimitAt(const Lane& lane, double s_m) const {
   if (const SpeedLimit* limit = RecordAt(lane.speeds, s_m)) return limit->speed_mps;
   if (const RoadType* type = RecordAt(spec_.types, s_m)) return type->speed_mps;
   return std::nullopt;
+}
+
+std::optional<double> Road::SpeedLimitAt(const Lane& lane, double s_m) const {
+  if (const auto said = SaidSpeedLimitAt(lane, s_m)) return said;
+  const SignSpeed* sign = RecordAt(lane.sign_speeds, s_m);
+  return sign != nullptr ? sign->speed_mps : std::nullopt;
 }
 
 const RoadMark* Road::MarkAt(const Lane& lane, double s_m) const { return RecordAt(lane.marks, s_m); }

@@ -94,6 +94,8 @@ class Road {
   bool Leans(double s_m) const { return rolled_ && !IsZero(spec_.superelevation.At(s_m)); }
   // Superelevated somewhere from one station to another.
   bool LeansBetween(double low_s_m, double high_s_m) const;
+  // A lateral profile, a lane's height, a level lane or a junction's ground: the lane at t counts for the surface.
+  bool shaped() const { return shaped_; }
   // Across it is level everywhere: the elevation is all of its height.
   bool flat() const { return !rolled_ && !shaped_; }
 
@@ -126,12 +128,17 @@ class Road {
                                      double high_s_m) const;
   // The distance, seen from above, from (x, y) to the line of constant t; s moves to the nearest point.
   double DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const;
-  // In force at s on a lane: the lane's own limit, otherwise the road's. Infinite: none; nothing where none is said.
+  // In force at s on a lane: the lane's own limit, otherwise that of the road's type. Infinite: none; nothing where
+  // neither says one.
+  std::optional<double> SaidSpeedLimitAt(const Lane& lane, double s_m) const;
+  // The same, and where nothing is said the limit by signs (Lane::sign_speeds). The one answer for all that drive,
+  // measure and draw.
   std::optional<double> SpeedLimitAt(const Lane& lane, double s_m) const;
   const RoadMark* MarkAt(const Lane& lane, double s_m) const;
   const LaneMaterial* MaterialAt(const Lane& lane, double s_m) const;
 
  private:
+  friend class Network;  // sets Lane::sign_speeds
   SurfaceSample OnGround(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSpan& span) const;
   LateralPoint LaneHeightAt(const LaneSpan& span, double s_m, double t_m) const;
   Lean LeanAt(double s_m) const;  // superelevation has records
@@ -140,7 +147,7 @@ class Road {
   geometry::PlanAxis axis_;
   double length_m_;
   bool rolled_;
-  bool shaped_;  // a lateral profile, a lane's height, a level lane or a junction's ground
+  bool shaped_;
 };
 
 }  // namespace rodeira::network

@@ -43,6 +43,8 @@ void CheckJumps(const RoadReading& road, const Tolerance& tolerance, Findings& f
 // One warning for each road with a reference line that has jumps of curvature, also where it goes on into another road
 // outside of junctions: at the largest of them.
 void TellCurvatureJumps(const network::Network& network, std::span<const RoadLines> lines, Findings& findings);
+// Signs of speed limits that say something else than every lane that they are for, or the road's type.
+void TellSignLimits(const network::Network& network, std::span<const RoadLines> lines, Findings& findings);
 // One road's surface: heights that jump between records of elevation, bank and cross-section; edges that fold in bends;
 // lanes narrower than nothing.
 void CheckSurfaces(const network::Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,

@@ -153,6 +153,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   CheckLaneLinks(*import.network, lines, tolerance, findings);
   CheckSurfaces(*import.network, lines, tolerance, findings);
   TellCurvatureJumps(*import.network, lines, findings);
+  TellSignLimits(*import.network, lines, findings);
   stop(true);
   return import;
 }
