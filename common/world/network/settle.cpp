@@ -12,7 +12,7 @@ namespace {
 SurfaceSample SurfaceOn(const Road& road, const geometry::AxisPanel* panel, double s_m, double t_m) {
   const LaneSection& section = road.SectionAt(s_m);
   double outside_m;
-  const LaneSpan span = section.At(t_m, road.CentreAt(s_m), s_m, outside_m);
+  const LaneSpan span = road.shaped() ? section.At(t_m, road.CentreAt(s_m), s_m, outside_m) : LaneSpan{};
   return panel == nullptr ? road.Surface(s_m, t_m, section, span)
                           : road.Surface(road.axis().At(*panel, s_m - panel->middle_s_m), s_m, t_m, section, span);
 }

@@ -267,8 +267,11 @@ std::string ControllerText(const network::Controller& controller) {
     text += fmt::format("<control signalId=\"{}\" type=\"{}\"/>\n", Escaped(entry.signal_id), Escaped(entry.type));
   if (controller.times) {
     const network::LightTimes& t = *controller.times;
-    text += fmt::format("<userData code=\"rodeira:times\" value=\"{} {} {} {} {}\"/>\n", t.cycle_s, t.green_from_s,
-                        t.green_s, t.amber_s, t.red_amber_s);
+    text += fmt::format("<userData code=\"rodeira:times\" value=\"{} {} {} {} {}", t.cycle_s, t.green_from_s, t.green_s,
+                        t.amber_s, t.red_amber_s);
+    for (const network::LightGreen& green : t.more)
+      text += fmt::format(" {} {} {} {}", green.from_s, green.green_s, green.amber_s, green.red_amber_s);
+    text += "\"/>\n";
   }
   return text + "</controller>\n";
 }

@@ -80,7 +80,6 @@ void WarnOfLights(const LightsWritten& lights, const std::string& file, std::vec
     if (!of.empty()) warnings.push_back(fmt::format("{}: {}: {}", file, sentence, Listed(of)));
   };
   warn(lights.actuated, "lights whose greens SUMO stretches by traffic have the lengths that the file says");
-  warn(lights.shortened, "lights with several greens a cycle keep the longest, and are red in the others");
   warn(lights.held, "lights that are green and yield to a green from another side are red there");
   warn(lights.dark, "lights without a program that can be followed are dark; signs and priorities hold");
 }

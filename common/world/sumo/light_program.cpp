@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rodeira::sumo {
 namespace {
@@ -100,31 +101,31 @@ bool HasTimes(const LightProgram& program) {
   return cycle_s >= 1.0 && cycle_s <= 3600.0;
 }
 
-LinkTimes TimesOf(const LightProgram& program, int light, const std::vector<bool>& held) {
+std::optional<network::LightTimes> TimesOf(const LightProgram& program, int light, const std::vector<bool>& held) {
   bool off = true;
   for (std::size_t phase = 0; phase < program.phases.size(); ++phase) off = off && IsOff(Letter(program, phase, light));
-  if (off || !HasTimes(program)) return {};
+  if (off || !HasTimes(program)) return std::nullopt;
   double begin_s = 0.0;
   std::vector<Span> spans = SpansOf(program, light, held, begin_s);
   spans.resize(PeriodOf(spans), {Shows::kRed, 0.0});
   double cycle_s = 0.0;
   for (const Span& span : spans) cycle_s += span.duration_s;
   if (spans.size() == 1 && spans.front().shows == Shows::kGreen)
-    return {network::LightTimes{cycle_s, 0.0, cycle_s, 0.0, 0.0}, false};
-  std::size_t greens = 0, longest = spans.size();
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    if (spans[i].shows != Shows::kGreen) continue;
-    ++greens;
-    if (longest == spans.size() || spans[i].duration_s > spans[longest].duration_s) longest = i;
-  }
-  if (greens == 0) return {network::LightTimes{cycle_s, 0.0, 0.0, 0.0, 0.0}, false};
+    return network::LightTimes{cycle_s, 0.0, cycle_s, 0.0, 0.0, {}};
+  std::vector<network::LightGreen> greens;
   double from_s = begin_s;
-  for (std::size_t i = 0; i < longest; ++i) from_s += spans[i].duration_s;
-  const Span &after = spans[(longest + 1) % spans.size()], &before = spans[(longest + spans.size() - 1) % spans.size()];
-  return {network::LightTimes{cycle_s, Within(from_s + program.offset_s, cycle_s), spans[longest].duration_s,
-                              after.shows == Shows::kAmber ? after.duration_s : 0.0,
-                              before.shows == Shows::kRedAmber ? before.duration_s : 0.0},
-          greens > 1};
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const Span &after = spans[(i + 1) % spans.size()], &before = spans[(i + spans.size() - 1) % spans.size()];
+    if (spans[i].shows == Shows::kGreen)
+      greens.push_back({Within(from_s + program.offset_s, cycle_s), spans[i].duration_s,
+                        after.shows == Shows::kAmber ? after.duration_s : 0.0,
+                        before.shows == Shows::kRedAmber ? before.duration_s : 0.0});
+    from_s += spans[i].duration_s;
+  }
+  if (greens.empty()) return network::LightTimes{cycle_s, 0.0, 0.0, 0.0, 0.0, {}};
+  const network::LightGreen first = greens.front();
+  greens.erase(greens.begin());
+  return network::LightTimes{cycle_s, first.from_s, first.green_s, first.amber_s, first.red_amber_s, std::move(greens)};
 }
 
 }  // namespace rodeira::sumo

@@ -9,17 +9,11 @@
 
 namespace rodeira::sumo {
 
-// What one light of a program shows.
-struct LinkTimes {
-  std::optional<network::LightTimes> times;  // nothing: the light is off
-  // The program has several greens a cycle: the longest is kept, and the light is red in the others.
-  bool shortened = false;
-};
-
 // A light's times by the letters of the program's phases. G and g are green, y is amber, u is red with amber; r and s
 // (green after a stop) are red; o and O (off, blinking) are off where no phase says more, and green elsewhere.
-// `held`: by phase, whether the light is red there although it is green in the program; empty: in none.
-LinkTimes TimesOf(const LightProgram& program, int light, const std::vector<bool>& held = {});
+// `held`: by phase, whether the light is red there although it is green in the program; empty: in none. Nothing: the
+// light is off.
+std::optional<network::LightTimes> TimesOf(const LightProgram& program, int light, const std::vector<bool>& held = {});
 
 // Whether a light is green in a phase; it yields or not.
 bool IsGreen(const LightProgram& program, std::size_t phase, int light);

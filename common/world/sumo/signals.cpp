@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "common/core/geometry/angle.hpp"
 #include "common/world/lanes/approach.hpp"
@@ -81,12 +81,11 @@ class Controllers {
         continue;
       }
       const std::vector<bool> held = HeldPhases(net, program->second, connection);
-      const LinkTimes link = TimesOf(program->second, connection.light_index, held);
-      if (!link.times) continue;
+      const auto times = TimesOf(program->second, connection.light_index, held);
+      if (!times) continue;
       if (program->second.type != "static") written.actuated.insert(connection.light);
-      if (link.shortened) written.shortened.insert(connection.light);
       if (std::find(held.begin(), held.end(), true) != held.end()) written.held.insert(connection.light);
-      of_[&connection] = Controller(connection.light, *link.times, written);
+      of_[&connection] = Controller(connection.light, *times, written);
     }
   }
 
@@ -109,18 +108,25 @@ class Controllers {
         Set(control, "signalId", signal);
         Set(control, "type", "0");
       }
-      const auto& [light, cycle_s, from_s, green_s, amber_s, red_amber_s] = key;
       pugi::xml_node data = controller.append_child("userData");
       Set(data, "code", "rodeira:times");
-      Set(data, "value", fmt::format("{} {} {} {} {}", cycle_s, from_s, green_s, amber_s, red_amber_s));
+      Set(data, "value", key.second);
     }
   }
 
  private:
-  using Key = std::tuple<std::string, double, double, double, double, double>;  // the light, and its times
+  using Key = std::pair<std::string, std::string>;  // the light, and its times as they are written
+
+  static std::string Written(const network::LightTimes& times) {
+    std::string text = fmt::format("{} {} {} {} {}", times.cycle_s, times.green_from_s, times.green_s, times.amber_s,
+                                   times.red_amber_s);
+    for (const network::LightGreen& green : times.more)
+      text += fmt::format(" {} {} {} {}", green.from_s, green.green_s, green.amber_s, green.red_amber_s);
+    return text;
+  }
 
   std::string Controller(const std::string& light, const network::LightTimes& times, LightsWritten& written) {
-    const Key key(light, times.cycle_s, times.green_from_s, times.green_s, times.amber_s, times.red_amber_s);
+    const Key key(light, Written(times));
     const auto found = ids_.find(key);
     if (found != ids_.end()) return found->second;
     std::string id = fmt::format("{}/{}", light, ++count_[light]);

@@ -19,7 +19,6 @@ struct LightsWritten {
   std::size_t lights = 0;                       // traffic lights with times
   std::map<std::string, std::string> light_of;  // by the id of a controller
   std::set<std::string> actuated;               // lights with phases of other lengths in SUMO by traffic
-  std::set<std::string> shortened;              // lights of which a second green a cycle is red
   std::set<std::string> held;                   // lights of which a green that yields to a crossing green is red
   std::set<std::string> dark;                   // lights without times
 };

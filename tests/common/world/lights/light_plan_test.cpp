@@ -68,6 +68,30 @@ TEST(LightPlan, RefusesWithASentence) {
   }
 }
 
+TEST(LightTimes, FurtherGreensLieInTheCycleAndOverlapNoOther) {
+  using network::WrongTimes;
+  const LightTimes good{60.0, 50.0, 15.0, 3.0, 1.0, {{10.0, 5.0, 3.0, 1.0}, {30.0, 10.0, 3.0, 1.0}}};
+  EXPECT_EQ(WrongTimes(good), nullptr);
+  EXPECT_EQ(ColourAt(good, 4'000'000'000), LightColour::kGreen);  // from 50 s on, over the end of the cycle
+  EXPECT_EQ(ColourAt(good, 6'000'000'000), LightColour::kAmber);
+  EXPECT_EQ(ColourAt(good, 9'000'000'000), LightColour::kRedAmber);
+  EXPECT_EQ(ColourAt(good, 12'000'000'000), LightColour::kGreen);
+  EXPECT_EQ(ColourAt(good, 29'500'000'000), LightColour::kRedAmber);
+  EXPECT_EQ(ColourAt(good, 45'000'000'000), LightColour::kRed);
+  EXPECT_EQ(ColourAt(good, 99'000'000'000), LightColour::kGreen);
+  const auto wrong = [&](const auto& change) {
+    LightTimes times = good;
+    change(times);
+    return WrongTimes(times) != nullptr;
+  };
+  EXPECT_TRUE(wrong([](LightTimes& t) { t.more[0].from_s = 7.0; })) << "in the amber of the first, and red with amber";
+  EXPECT_TRUE(wrong([](LightTimes& t) { t.more[1].green_s = 17.0; })) << "into the first one of the next cycle";
+  EXPECT_TRUE(wrong([](LightTimes& t) { std::swap(t.more[0], t.more[1]); })) << "out of order";
+  EXPECT_TRUE(wrong([](LightTimes& t) { t.more[1].from_s = 61.0; }));
+  EXPECT_TRUE(wrong([](LightTimes& t) { t.more[1].green_s = 0.0; }));
+  EXPECT_TRUE(wrong([](LightTimes& t) { t.more[1].amber_s = -1.0; }));
+}
+
 // Against looking at both lights each tenth of a second for as long as both cycles last together.
 TEST(LightTimes, MeetGreenIsWhatOneSees) {
   std::mt19937 random(3);
@@ -79,6 +103,10 @@ TEST(LightTimes, MeetGreenIsWhatOneSees) {
     const double cycle = draw(12, 30);
     LightTimes a{cycle, draw(0, 11), draw(0, 6), draw(1, 3), 1.0}, b{cycle, draw(0, 11), draw(0, 6), draw(1, 3), 1.0};
     if (trial % 20 == 0) a.green_s = cycle;
+    // Every other light has a second green, where there is room for one.
+    network::LightTimes second = b;
+    second.more.push_back({std::fmod(b.green_from_s + b.green_s + b.amber_s + 3.0, cycle), draw(1, 3), 1.0, 1.0});
+    if (trial % 2 == 0 && b.green_s > 0.0 && network::WrongTimes(second) == nullptr) b = second;
     bool seen = false;
     for (std::int64_t t = 0; t < static_cast<std::int64_t>(cycle) * 10; ++t) {
       const auto on = [&](const LightTimes& times) {

@@ -26,17 +26,16 @@ char LetterAt(const LightProgram& program, int light, double time_s) {
 }
 
 void ExpectSame(const LightProgram& program, int light) {
-  const LinkTimes link = TimesOf(program, light);
-  ASSERT_TRUE(link.times);
-  ASSERT_EQ(network::WrongTimes(*link.times), nullptr);
-  EXPECT_FALSE(link.shortened);
+  const auto times = TimesOf(program, light);
+  ASSERT_TRUE(times);
+  ASSERT_EQ(network::WrongTimes(*times), nullptr);
   for (int second = 0; second < 400; ++second) {
     const char letter = LetterAt(program, light, second);
     const LightColour expected = letter == 'G' || letter == 'g' ? LightColour::kGreen
                                  : letter == 'y'                ? LightColour::kAmber
                                  : letter == 'u'                ? LightColour::kRedAmber
                                                                 : LightColour::kRed;
-    ASSERT_EQ(network::ColourAt(*link.times, std::int64_t(second) * 1'000'000'000), expected)
+    ASSERT_EQ(network::ColourAt(*times, std::int64_t(second) * 1'000'000'000), expected)
         << "light " << light << " at " << second << " s";
   }
 }
@@ -55,47 +54,43 @@ TEST(LightProgram, ShowsWhatTheLettersSayAtEverySecond) {
 TEST(LightProgram, JoinsAGreenAcrossTheEnd) {
   const LightProgram program = Program(5.0, {{10, "g"}, {3, "y"}, {30, "r"}, {12, "G"}});
   ExpectSame(program, 0);
-  EXPECT_DOUBLE_EQ(TimesOf(program, 0).times->green_s, 22.0);
+  EXPECT_DOUBLE_EQ(TimesOf(program, 0)->green_s, 22.0);
 }
 
 // Twice the same in one program is a cycle of half the length.
 TEST(LightProgram, HalvesACycleOfTwoEqualHalves) {
   const LightProgram program = Program(0.0, {{42, "G"}, {3, "y"}, {42, "G"}, {3, "y"}});
   ExpectSame(program, 0);
-  EXPECT_DOUBLE_EQ(TimesOf(program, 0).times->cycle_s, 45.0);
+  EXPECT_DOUBLE_EQ(TimesOf(program, 0)->cycle_s, 45.0);
 }
 
-// Of two different greens the longer one stays; a red of the program is red all the same.
-TEST(LightProgram, KeepsTheLongestOfSeveralGreens) {
-  const LightProgram program = Program(0.0, {{10, "G"}, {3, "y"}, {20, "r"}, {25, "G"}, {4, "y"}, {8, "r"}});
-  const LinkTimes link = TimesOf(program, 0);
-  EXPECT_TRUE(link.shortened);
-  EXPECT_DOUBLE_EQ(link.times->green_from_s, 33.0);
-  EXPECT_DOUBLE_EQ(link.times->green_s, 25.0);
-  EXPECT_DOUBLE_EQ(link.times->amber_s, 4.0);
-  for (int second = 0; second < 140; ++second) {
-    if (LetterAt(program, 0, second) == 'r') {
-      ASSERT_EQ(network::ColourAt(*link.times, std::int64_t(second) * 1'000'000'000), LightColour::kRed) << second;
-    }
+TEST(LightProgram, KeepsEveryGreenOfACycle) {
+  for (const double offset_s : {0.0, 7.0, -40.0}) {
+    ExpectSame(Program(offset_s, {{10, "G"}, {3, "y"}, {20, "r"}, {25, "G"}, {4, "y"}, {8, "r"}}), 0);
+    ExpectSame(Program(offset_s, {{5, "G"}, {3, "y"}, {2, "u"}, {25, "g"}, {4, "y"}, {8, "r"}, {9, "G"}, {7, "r"}}), 0);
+    ExpectSame(Program(offset_s, {{5, "G"}, {3, "r"}, {6, "G"}, {1, "y"}, {9, "r"}, {8, "G"}}), 0);
   }
+  const auto times = TimesOf(Program(0.0, {{10, "G"}, {3, "y"}, {20, "r"}, {25, "G"}, {4, "y"}, {8, "r"}}), 0);
+  ASSERT_EQ(times->more.size(), 1u);
+  EXPECT_EQ(times->more[0], (network::LightGreen{33.0, 25.0, 4.0, 0.0}));
 }
 
 TEST(LightProgram, AlwaysGreenNeverGreenAndOff) {
   const LightProgram program = Program(0.0, {{30, "Gro"}, {30, "grO"}});
-  EXPECT_EQ(network::ColourAt(*TimesOf(program, 0).times, 59'999'999'999), LightColour::kGreen);
+  EXPECT_EQ(network::ColourAt(*TimesOf(program, 0), 59'999'999'999), LightColour::kGreen);
   for (int second = 0; second < 60; ++second)
-    EXPECT_EQ(network::ColourAt(*TimesOf(program, 1).times, std::int64_t(second) * 1'000'000'000), LightColour::kRed);
-  EXPECT_FALSE(TimesOf(program, 2).times);
-  EXPECT_FALSE(TimesOf(Program(0.0, {}), 0).times);
+    EXPECT_EQ(network::ColourAt(*TimesOf(program, 1), std::int64_t(second) * 1'000'000'000), LightColour::kRed);
+  EXPECT_FALSE(TimesOf(program, 2));
+  EXPECT_FALSE(TimesOf(Program(0.0, {}), 0));
   EXPECT_FALSE(HasTimes(Program(0.0, {{0.2, "G"}})));
 }
 
 // A light that is held is red in that phase; green comes with the next one.
 TEST(LightProgram, HoldsAGreen) {
   const LightProgram program = Program(0.0, {{20, "g"}, {10, "G"}, {3, "y"}, {27, "r"}});
-  const LinkTimes link = TimesOf(program, 0, {true, false, false, false});
-  EXPECT_DOUBLE_EQ(link.times->green_from_s, 20.0);
-  EXPECT_DOUBLE_EQ(link.times->green_s, 10.0);
+  const auto times = TimesOf(program, 0, {true, false, false, false});
+  EXPECT_DOUBLE_EQ(times->green_from_s, 20.0);
+  EXPECT_DOUBLE_EQ(times->green_s, 10.0);
 }
 
 }  // namespace
