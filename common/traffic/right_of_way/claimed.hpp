@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/traffic/right_of_way/passage.hpp"
-#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/right_of_way/reservation_table.hpp"
 
 namespace rodeira::traffic {
 

@@ -11,7 +11,7 @@
 #include "common/traffic/right_of_way/merging.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
 #include "common/traffic/right_of_way/passages.hpp"
-#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/right_of_way/reservation_table.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 

@@ -12,7 +12,7 @@
 #include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
-#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/right_of_way/reservation_table.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 #include "common/traffic/state/vehicle_way.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wanted of a conflict zone.
-#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/right_of_way/reservation_table.hpp"
 
 #include <gtest/gtest.h>
 

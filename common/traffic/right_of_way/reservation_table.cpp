@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/right_of_way/reservation_table.hpp"
 
 namespace rodeira::traffic {
 

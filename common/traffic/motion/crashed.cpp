@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/traffic/motion/struck.hpp"
+#include "common/traffic/motion/crashed.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "common/traffic/motion/crashed.hpp"
 #include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/motion/poses.hpp"
-#include "common/traffic/motion/struck.hpp"
 #include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/traffic/motion/struck.hpp"
+#include "common/traffic/motion/crashed.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 

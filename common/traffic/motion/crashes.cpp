@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/traffic/motion/strike.hpp"
+#include "common/traffic/motion/crashes.hpp"
 
 #include <algorithm>
 #include <cmath>
