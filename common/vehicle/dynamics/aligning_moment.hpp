@@ -28,8 +28,18 @@ std::span<const AligningCoefficient> AligningCoefficients();
 // M_z in N m about the contact's z axis, positive counter-clockwise seen from above: trail and residual moment with
 // combined slip (Pacejka, 3rd ed., (4.E31) to (4.E49) and (4.E71) to (4.E78); Besselink et al., Vehicle System Dynamics
 // 48 (2010), (A54) to (A60)); trail and arm go by FNOMIN without LFZO, as MFeval does to match TNO's solver. 0 for a
-// load of 0 or less. No vehicle model uses it.
+// load of 0 or less.
 double AligningMoment(const MagicFormulaSettings& tyre, const AligningSettings& aligning, const TyreSlip& slip,
                       double load_N, double friction);
+
+// SteadyForces with AligningMoment as aligning_Nm, in one evaluation. The tyre rolls forward.
+TyreForces SteadyForcesWithMoment(const MagicFormulaSettings& tyre, const AligningSettings& aligning,
+                                  const TyreSlip& slip, double load_N, double friction);
+
+// The pneumatic trail of those formulas in m, for a tyre with other curves of its forces: of `tyre` only FNOMIN, LFZO,
+// LKY, LMUY and the pressures count. `stiffness_ratio` is longitudinal stiffness over cornering stiffness. `load_N` and
+// `friction` are above 0.
+double PneumaticTrail(const MagicFormulaSettings& tyre, const AligningSettings& aligning, const TyreSlip& slip,
+                      double stiffness_ratio, double load_N, double friction);
 
 }  // namespace rodeira::dynamics

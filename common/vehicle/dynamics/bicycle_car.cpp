@@ -83,8 +83,8 @@ BicycleContact BicycleCar::ContactOf(const BicyclePose& pose, std::size_t wheel)
   return contact;
 }
 
-std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chassis,
-                                                     const BicycleContacts& contacts) const {
+std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts,
+                                                     double steer_radps) const {
   std::array<TyreMotion, kWheels> motion;
   const Eigen::Vector3d w_WG_W = body.w_WG_W();
   for (const std::size_t left : {0u, 2u}) {
@@ -92,8 +92,8 @@ std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chass
     const Eigen::Vector3d v = body.v_WG_W + w_WG_W.cross(middle - body.p_WG_W);
     for (const std::size_t i : {left, left + 1}) {
       const double vx = v.dot(contacts[i].along_W);
-      motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m,
-                   v.dot(contacts[i].across_W)};
+      motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m, v.dot(contacts[i].across_W),
+                   0.0, w_WG_W.dot(wheels[i].normal_W) + (IsFront(i) ? steer_radps : 0.0)};
     }
   }
   return motion;
@@ -122,7 +122,9 @@ void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls
   }
   TurnWheels(chassis, controls, dt_s, findings);
   PushBody(chassis, push, dt_s, findings);
-  const std::array<TyreMotion, kWheels> after = MotionOf(chassis, contacts);
+  const double steer = chassis.SteerAngle(kFrontLeft, controls.steering_wheel_rad);
+  const std::array<TyreMotion, kWheels> after = MotionOf(chassis, contacts, (steer - steer_rad) / dt_s);
+  steer_rad = steer;
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels[i];
     wheel.tyre.Advance(chassis.tyres[i], after[i], wheel.corner.load_N(), wheel.friction, dt_s);
@@ -179,7 +181,7 @@ void BicycleCar::PushBody(const BicycleChassis& chassis, const Wrench& push, dou
     for (std::size_t i = 2 * axle; i < 2 * axle + 2; ++i) {
       const Eigen::Vector3d normal = wheels[i].corner.load_N() * wheels[i].normal_W;
       force += normal;
-      moment += (contacts[i].point_W - body.p_WG_W).cross(normal);
+      moment += (contacts[i].point_W - body.p_WG_W).cross(normal) + contacts[i].forces.aligning_Nm * wheels[i].normal_W;
       tangential +=
           contacts[i].forces.longitudinal_N * contacts[i].along_W + contacts[i].forces.lateral_N * contacts[i].across_W;
     }
@@ -247,6 +249,7 @@ void BicycleCar::Save(base::StateWriter& writer) const {
   for (const Wheel& wheel : wheels) writer.Put("wheel", wheel);
   writer.Put("powertrain", powertrain);
   writer.Put("forward_mps2", forward_mps2);
+  writer.Put("steer_rad", steer_rad);
 }
 
 void BicycleCar::Restore(base::StateReader& reader) {
@@ -254,6 +257,7 @@ void BicycleCar::Restore(base::StateReader& reader) {
   for (Wheel& wheel : wheels) reader.Get("wheel", wheel);
   reader.Get("powertrain", powertrain);
   reader.Get("forward_mps2", forward_mps2);
+  reader.Get("steer_rad", steer_rad);
 }
 
 }  // namespace rodeira::dynamics

@@ -68,6 +68,7 @@ struct BicycleCar {
   std::array<Wheel, kWheels> wheels;
   Powertrain powertrain;
   double forward_mps2 = 0.0;  // acceleration of the last substep along the car
+  double steer_rad = 0.0;     // of the front wheels at the end of the last substep
 
   Eigen::Vector3d p_WB_W(const BicycleChassis& chassis) const { return body.p_WG_W - body.q_WG * chassis.p_BG_B; }
   Eigen::Vector3d HubAtRest_W(const BicycleChassis& chassis, std::size_t wheel) const {
@@ -82,8 +83,9 @@ struct BicycleCar {
   BicyclePose PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const;
   CornerInput CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const;
   BicycleContact ContactOf(const BicyclePose& pose, std::size_t wheel) const;
-  // Both wheels of an axle share the motion of its middle.
-  std::array<TyreMotion, kWheels> MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts) const;
+  // Both wheels of an axle share the motion of its middle. The front wheels are steered at this rate.
+  std::array<TyreMotion, kWheels> MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts,
+                                           double steer_radps = 0.0) const;
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

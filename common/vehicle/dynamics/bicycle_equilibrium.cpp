@@ -39,8 +39,13 @@ class BicycleEquilibrium {
   Eigen::Vector3d Drag(const Eigen::Vector3d& normal) const;
   Eigen::Vector3d HoldingForce(const Eigen::Vector3d& normal) const;
   CruiseForces Cruise(const Eigen::Vector3d& normal) const;
-  std::array<Eigen::Vector3d, kWheels> HoldingForces(const BicycleContacts& contacts,
-                                                     const Eigen::Vector3d& normal) const;
+  struct Holding {
+    std::array<Eigen::Vector3d, kWheels> forces;
+    std::array<double, kWheels> aligning_Nm{};
+  };
+  Holding HoldingForces(const BicycleContacts& contacts, const Eigen::Vector3d& normal) const;
+  std::array<double, kWheels> AligningMoments(const BicycleContacts& contacts,
+                                              const std::array<Eigen::Vector3d, kWheels>& forces) const;
   Eigen::Vector3d Residual(const Unknowns& unknowns);
   Unknowns Balance(Unknowns unknowns);
 
@@ -117,15 +122,28 @@ CruiseForces BicycleEquilibrium::Cruise(const Eigen::Vector3d& normal) const {
                    model_.chassis_.settings.front_driven, initial_.speed_mps);
 }
 
+// Of wheels that roll at the car's speed; at rest there are none.
+std::array<double, kWheels> BicycleEquilibrium::AligningMoments(
+    const BicycleContacts& contacts, const std::array<Eigen::Vector3d, kWheels>& forces) const {
+  std::array<double, kWheels> moments{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const TyreForces wanted{forces[i].dot(contacts[i].along_W), forces[i].dot(contacts[i].across_W)};
+    const auto& wheel = model_.car_.wheels[i];
+    moments[i] =
+        CruiseMoment(model_.chassis_.tyres[i], wanted, initial_.speed_mps, wheel.corner.load_N(), wheel.friction);
+  }
+  return moments;
+}
+
 // Of each wheel. Along the car by load, or as rolling wheels drive it; across it the axles share so that nothing yaws
 // (both forces of an axle act at its middle), and an axle's wheels by load.
-std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const BicycleContacts& contacts,
-                                                                       const Eigen::Vector3d& normal) const {
-  std::array<Eigen::Vector3d, kWheels> forces;
-  forces.fill(Eigen::Vector3d::Zero());
+BicycleEquilibrium::Holding BicycleEquilibrium::HoldingForces(const BicycleContacts& contacts,
+                                                              const Eigen::Vector3d& normal) const {
+  Holding found;
+  found.forces.fill(Eigen::Vector3d::Zero());
   std::array<double, 2> load{};
   for (std::size_t i = 0; i < kWheels; ++i) load[i / 2] += model_.car_.wheels[i].corner.load_N();
-  if (!(load[0] > 0.0 && load[1] > 0.0)) return forces;
+  if (!(load[0] > 0.0 && load[1] > 0.0)) return found;
   const Eigen::Vector3d holding = HoldingForce(normal);
   const Eigen::Vector3d along = Along(normal);
   const Eigen::Vector3d lengthwise = holding.dot(along) * along, across = holding - lengthwise;
@@ -139,17 +157,31 @@ std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const Bic
   for (std::size_t i = 0; i < kWheels; ++i)
     along_N[i] =
         model_.car_.wheels[i].corner.load_N() / load[i / 2] * (i < 2 ? by_load : 1.0 - by_load) * lengthwise.dot(along);
-  if (IsCruise(initial_)) along_N = Cruise(normal).longitudinal_N;
+  const bool cruises = IsCruise(initial_);
+  if (cruises) along_N = Cruise(normal).longitudinal_N;
   const double lengthwise_yaws =
       (along_N[0] + along_N[1]) * yaws(0, along) + (along_N[2] + along_N[3]) * yaws(1, along);
   const double apart = yaws(0, across) - yaws(1, across);
-  const double front =
-      std::fabs(apart) > 1e-9 ? std::clamp(-(lengthwise_yaws + yaws(1, across)) / apart, 0.0, 1.0) : by_load;
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    const double of_axle = model_.car_.wheels[i].corner.load_N() / load[i / 2];
-    forces[i] = along_N[i] * along + of_axle * (i < 2 ? front : 1.0 - front) * across;
+  // The aligning moments follow the side forces, which make up for them: what is missing falls to some hundredths each
+  // turn.
+  for (int turn = 0; turn < kMomentTurns; ++turn) {
+    const double aligning = found.aligning_Nm[0] + found.aligning_Nm[1] + found.aligning_Nm[2] + found.aligning_Nm[3];
+    const double front = std::fabs(apart) > 1e-9
+                             ? std::clamp(-(lengthwise_yaws + aligning + yaws(1, across)) / apart, 0.0, 1.0)
+                             : by_load;
+    for (std::size_t i = 0; i < kWheels; ++i) {
+      const double of_axle = model_.car_.wheels[i].corner.load_N() / load[i / 2];
+      found.forces[i] = along_N[i] * along + of_axle * (i < 2 ? front : 1.0 - front) * across;
+    }
+    if (!cruises) break;
+    const std::array<double, kWheels> moments = AligningMoments(contacts, found.forces);
+    double change_Nm = 0.0;
+    for (std::size_t i = 0; i < kWheels; ++i)
+      change_Nm = std::max(change_Nm, std::fabs(moments[i] - found.aligning_Nm[i]));
+    found.aligning_Nm = moments;
+    if (change_Nm < kSameMoment_Nm) break;
   }
-  return forces;
+  return found;
 }
 
 // Force along the road's normal, pitching and rolling moment about the centre of gravity.
@@ -158,7 +190,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   SettleCorners();
   const BicycleContacts contacts = FindContacts();
   const Eigen::Vector3d normal = RoadNormal(contacts);
-  const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(contacts, normal);
+  const Holding holding = HoldingForces(contacts, normal);
   Eigen::Vector3d force = HoldingForce(normal) + Drag(normal);
   force.z() -= model_.chassis_.settings.body.mass_kg * base::kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -167,7 +199,8 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
     const Eigen::Vector3d middle = 0.5 * (contacts[i & 2u].point_W + contacts[(i & 2u) + 1].point_W);
     force += bearing;
     moment += (contacts[i].point_W - model_.car_.body.p_WG_W).cross(bearing);
-    moment += (middle - model_.car_.body.p_WG_W).cross(holding[i]);
+    moment += (middle - model_.car_.body.p_WG_W).cross(holding.forces[i]) +
+              holding.aligning_Nm[i] * model_.car_.wheels[i].normal_W;
   }
   const Eigen::Vector3d moment_B = model_.car_.body.q_WG.conjugate() * moment;
   return {force.dot(normal), moment_B.y(), moment_B.x()};
@@ -232,7 +265,7 @@ void BicycleEquilibrium::SetInMotion() {
   body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.chassis_.p_BG_B);
 
   const bool rests = v_WB_W.norm() < kStandstill_mps && std::fabs(initial_.yaw_rate_radps) < kStandstill_mps;
-  const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(model_.findings_.contacts, normal);
+  const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(model_.findings_.contacts, normal).forces;
   for (std::size_t i = 0; i < kWheels; ++i) {
     BicycleCar::Wheel& wheel = model_.car_.wheels[i];
     BicycleContact& contact = model_.findings_.contacts[i];

@@ -9,20 +9,15 @@
 
 namespace rodeira::dynamics {
 
-// The front tyres turn their carriers by side force × trail; the pneumatic part vanishes as the tyre slides.
+// The front tyres turn their carriers by aligning moment and side force × mechanical trail.
 double BicycleModel::SteeringTorque() const {
   const SteeringSettings& steering = settings().steering;
   double torque = 0.0;
   for (const std::size_t i : {kFrontLeft, kFrontRight}) {
-    const double load = car_.wheels[i].corner.load_N();
-    const double peak = LateralPeak(settings().tyre[0], load, car_.wheels[i].friction);
-    const double stiffness = std::max(1.0, CorneringStiffness(settings().tyre[0], load));
-    const double sliding =
-        peak > 0.0 ? std::min(1.0, std::fabs(car_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
-    const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
-    torque -= trail * findings_.contacts[i].forces.lateral_N / steering.ratio;
+    const TyreForces& forces = findings_.contacts[i].forces;
+    torque += forces.aligning_Nm - steering.mechanical_trail_m * forces.lateral_N;
   }
-  return torque;
+  return torque / steering.ratio;
 }
 
 void BicycleModel::Publish(const Controls& controls, double dt_s) {
@@ -46,6 +41,7 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
     w.spin_radps = wheel.spin_radps;
     w.longitudinal_N = findings_.contacts[i].forces.longitudinal_N;
     w.lateral_N = findings_.contacts[i].forces.lateral_N;
+    w.aligning_Nm = findings_.contacts[i].forces.aligning_Nm;
     w.load_N = wheel.corner.load_N();
     w.slip = wheel.tyre.slip();
     w.slip_angle_tan = wheel.tyre.slip_angle_tan();

@@ -77,6 +77,10 @@ BicycleSettings ReadBicycle(const Map& given) {
   const config::DeclaredMap tyre = root.Child("tyre");
   bicycle.tyre = {ReadTyre(tyre.Child("front").map()), ReadTyre(tyre.Child("rear").map())};
   bicycle.wheel = ReadWheel(root.Child("wheel").map());
+  for (TyreSettings& each : bicycle.tyre) {
+    if (!each.aligning && each.pneumatic_trail_m == 0.0) each.pneumatic_trail_m = bicycle.steering.pneumatic_trail_m;
+    if (each.aligning && each.aligning->unloaded_radius == 0.0) each.aligning->unloaded_radius = bicycle.wheel.radius_m;
+  }
   bicycle.brakes = ReadBrakes(root.Child("brakes").map());
   bicycle.powertrain = ReadPowertrain(given);
   bicycle.front_driven = root.Word("driven_axle") != "rear";

@@ -27,7 +27,7 @@ struct SteeringSettings {
   double ratio = 16.0;
   double limit_rad = 9.2;            // of the steering wheel, each side
   double mechanical_trail_m = 0.02;  // for the torque given back to the driver only
-  double pneumatic_trail_m = 0.025;
+  double pneumatic_trail_m = 0.025;  // of tyres without coefficients of their aligning moment
 };
 
 // All that a vehicle file of model `bicycle` says.

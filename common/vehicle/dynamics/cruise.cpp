@@ -25,4 +25,12 @@ CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_
   return forces;
 }
 
+double CruiseMoment(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction,
+                    double camber_rad) {
+  if (!(load_N > 0.0)) return 0.0;
+  Tyre rolling;
+  const TyreMotion motion = rolling.SetToRollAndBear(tyre, forces, vx_mps, load_N, friction, camber_rad);
+  return rolling.Forces(tyre, motion, load_N, friction).aligning_Nm;
+}
+
 }  // namespace rodeira::dynamics

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "common/vehicle/dynamics/tyre.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
 
@@ -23,5 +24,9 @@ struct CruiseForces {
 };
 CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel,
                        bool front_driven, double speed_mps);
+
+// Aligning moment of a tyre that bears these forces as it rolls steadily at vx_mps (Tyre::SetToRollAndBear), in N m.
+double CruiseMoment(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction,
+                    double camber_rad = 0.0);
 
 }  // namespace rodeira::dynamics

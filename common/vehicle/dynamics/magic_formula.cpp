@@ -174,7 +174,7 @@ TyreForces OnEllipse(const Pure& x, const Pure& y) {
   };
   const double x_share = 1.0 / std::hypot(1.0, slope(x, along) * across / std::max(y.peak_N, kTiny));
   const double y_share = 1.0 / std::hypot(1.0, slope(y, across) * along / std::max(x.peak_N, kTiny));
-  return {x.force_N * x_share, y.force_N * y_share};
+  return {x.force_N * x_share, y.force_N * y_share, 0.0};
 }
 
 }  // namespace
@@ -190,16 +190,16 @@ TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& mounte
   const Pure y = PureLateral(tyre, o, slip, friction);
   if (tyre.friction_ellipse) {
     const TyreForces forces = OnEllipse(x, y);
-    return {forces.longitudinal_N, side * forces.lateral_N};
+    return {forces.longitudinal_N, side * forces.lateral_N, 0.0};
   }
   return {x.force_N * WeightLongitudinal(tyre, o, slip),
-          side * (y.force_N * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction))};
+          side * (y.force_N * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction)), 0.0};
 }
 
 MagicFormulaParts PartsOf(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
   const Operating o = At(tyre, load_N);
   const Pure x = PureLongitudinal(tyre, o, slip, friction), y = PureLateral(tyre, o, slip, friction);
-  const Pure upright = PureLateral(tyre, o, {slip.kappa, slip.tan_alpha, 0.0}, friction);
+  const Pure upright = slip.camber_rad == 0.0 ? y : PureLateral(tyre, o, {slip.kappa, slip.tan_alpha, 0.0}, friction);
   MagicFormulaParts parts;
   parts.slip_stiffness_N = x.stiffness_N;
   parts.cornering_stiffness_N = std::fabs(y.stiffness_N) < kTiny ? -kTiny : y.stiffness_N;
@@ -213,7 +213,7 @@ MagicFormulaParts PartsOf(const MagicFormulaSettings& tyre, const TyreSlip& slip
   }
   const double weight = WeightLateral(tyre, o, slip);
   parts.forces = {x.force_N * WeightLongitudinal(tyre, o, slip),
-                  y.force_N * weight + InducedLateral(tyre, o, slip, friction)};
+                  y.force_N * weight + InducedLateral(tyre, o, slip, friction), 0.0};
   parts.trail_lateral_N = weight * (tyre.version == MagicFormulaVersion::k52 ? y.force_N : upright.force_N);
   return parts;
 }

@@ -62,6 +62,7 @@ struct TyreSlip {
 struct TyreForces {
   double longitudinal_N = 0.0;
   double lateral_N = 0.0;
+  double aligning_Nm = 0.0;  // about the contact's z axis, counter-clockwise from above; SteadyForces leaves it at 0
 };
 
 // The forces at a load (0 for a load of 0 or less). `friction` of the ground multiplies the peaks, not the stiffness.

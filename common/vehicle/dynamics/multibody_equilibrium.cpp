@@ -21,7 +21,8 @@ constexpr double kMultibodySettled_m = 1e-10;
 constexpr double kResidual_mps2 = 1e-9;
 constexpr double kAnchor_Npm =
     3e5;  // as a tyre: what a stiffer one does to the carrier by its lever is not in Newton's matrix
-constexpr double kHeld_N = 1e-6;  // what anchors may still hold of a car at a speed
+constexpr double kHeld_N = 1e-6;       // what anchors may still hold of a car at a speed
+constexpr double kMomentArm_m = 0.01;  // a change of a wheel's moment counts as one of its forces by this arm
 
 Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
   const Eigen::Vector3d ahead(std::cos(initial.heading_rad), std::sin(initial.heading_rad), 0.0);
@@ -102,6 +103,14 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
     held_N = std::max({held_N, std::fabs(bears[0] - cruise.forces[i].longitudinal_N),
                        std::fabs(bears[1] - cruise.forces[i].lateral_N)});
     missing += acts(i, bears[0] * contacts[i].along_W + bears[1] * contacts[i].across_W);
+    // The present forces' moment in the place of that of the turn before: what is missing falls to some hundredths.
+    const double before_Nm = cruise.forces[i].aligning_Nm;
+    missing[2] += before_Nm;
+    cruise.forces[i].aligning_Nm =
+        CruiseMoment(tyres_[i], {bears[0], bears[1]}, MotionOf(i, motion, contacts[i]).vx_mps, contacts[i].load_N,
+                     wheels_[i].friction, contacts[i].camber_rad);
+    missing[2] -= cruise.forces[i].aligning_Nm;
+    held_N = std::max(held_N, std::fabs(cruise.forces[i].aligning_Nm - before_Nm) / kMomentArm_m);
     loads_N[i] = contacts[i].load_N;
     axle_N[i / 2] += loads_N[i];
   }
@@ -135,7 +144,7 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
   for (std::size_t i = 0; i < kWheels; ++i) {
     cruise.forces[i].longitudinal_N = cruise.push.longitudinal_N[i];
     cruise.forces[i].lateral_N += share[i] * cruise.axle_N[i / 2];
-    wheels_[i].load->SetStep(cruise.forces[i].longitudinal_N, cruise.forces[i].lateral_N, 0.0, 0.0);
+    wheels_[i].load->SetStep(cruise.forces[i], 0.0, 0.0);
     wheels_[i].load->Anchor(Hub_W(i), kAnchor_Npm, false);
   }
   chassis_load_->SetDrive(
@@ -175,7 +184,7 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, ground::Gro
   chassis_load_->SetHeadway(Eigen::Vector3d::Zero());
   body_load_->LeaveGround();
   body_load_->SetPush({});
-  for (Wheel& wheel : wheels_) wheel.load->SetStep(0.0, 0.0, 0.0, 0.0);
+  for (Wheel& wheel : wheels_) wheel.load->SetStep({}, 0.0, 0.0);
   if (auto status = Balance(initial, ground, nullptr); !status || !IsCruise(initial)) return status;
   const std::vector<double> stands(system_->q().begin(), system_->q().end());
   (void)UpdateCruise(initial, cruise);
@@ -258,8 +267,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
                                   contacts[i].load_N * wheels_[i].normal_W;
     const Eigen::Vector3d axle = system_->motion().At(settings_.wheels[i].axle);
     torques_.friction_Nm[i] = rests ? -(contacts[i].point_W - Hub_W(i)).cross(bears).dot(axle) : 0.0;
-    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i],
-                             wheels_[i].spin_radps);
+    wheels_[i].load->SetStep(forces_[i], torques_.friction_Nm[i], wheels_[i].spin_radps);
   }
   hands_rad_ = 0.0;
   forward_mps2_ = 0.0;

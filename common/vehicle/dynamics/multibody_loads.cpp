@@ -11,9 +11,8 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-void WheelLoad::SetStep(double longitudinal_N, double lateral_N, double brake_on_wheel_Nm, double spin_radps) {
-  longitudinal_N_ = longitudinal_N;
-  lateral_N_ = lateral_N;
+void WheelLoad::SetStep(const TyreForces& forces, double brake_on_wheel_Nm, double spin_radps) {
+  forces_ = forces;
   brake_on_wheel_Nm_ = brake_on_wheel_Nm;
   spin_radps_ = spin_radps;
   anchored_ = false;
@@ -40,9 +39,9 @@ WheelLoad::Contact WheelLoad::ContactAt(const multibody::Motion& motion) const {
 }
 
 Eigen::Vector2d WheelLoad::Tangential(const multibody::Motion& motion, const Contact& contact) const {
-  if (!anchored_) return {longitudinal_N_, lateral_N_};
+  if (!anchored_) return {forces_.longitudinal_N, forces_.lateral_N};
   const Vector3d away = anchor_Npm_ * (motion.At(settings_.centre) - anchor_W_);
-  return {longitudinal_N_ - away.dot(contact.along_W), lateral_N_ - away.dot(contact.across_W)};
+  return {forces_.longitudinal_N - away.dot(contact.along_W), forces_.lateral_N - away.dot(contact.across_W)};
 }
 
 void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {
@@ -51,7 +50,7 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
   const Eigen::Vector2d tangential = Tangential(motion, contact);
   const Vector3d force =
       contact.load_N * normal_W_ + tangential[0] * contact.along_W + tangential[1] * contact.across_W;
-  Vector3d moment = (contact.point_W - motion.At(settings_.centre)).cross(force);
+  Vector3d moment = (contact.point_W - motion.At(settings_.centre)).cross(force) + forces_.aligning_Nm * normal_W_;
   if (!locked_) {
     moment -= (moment.dot(axle) + brake_on_wheel_Nm_) * axle;  // about its axle the wheel turns by itself
     moment -= settings_.spin_inertia_kgm2 * spin_radps_ * motion.RateOf(settings_.axle);

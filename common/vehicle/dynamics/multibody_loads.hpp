@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/vehicle/dynamics/disc_contact.hpp"
+#include "common/vehicle/dynamics/magic_formula.hpp"
 #include "common/vehicle/multibody/body.hpp"
 #include "common/vehicle/multibody/load.hpp"
 
@@ -31,8 +32,8 @@ class WheelLoad final : public multibody::Load {
     plane_W_ = point_W;
     normal_W_ = normal_W;
   }
-  // Forces along and across, torque of the brake on the wheel about the axle, spin.
-  void SetStep(double longitudinal_N, double lateral_N, double brake_on_wheel_Nm, double spin_radps);
+  // Forces along and across with the aligning moment, torque of the brake on the wheel about the axle, spin.
+  void SetStep(const TyreForces& forces, double brake_on_wheel_Nm, double spin_radps);
   // INI, until SetStep: stiff springs hold the hub over this point, beside the forces that are set; locked, or free to
   // roll.
   void Anchor(const Eigen::Vector3d& hub_W, double stiffness_Npm, bool locked);
@@ -49,8 +50,7 @@ class WheelLoad final : public multibody::Load {
   Settings settings_;
   Eigen::Vector3d plane_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_W_ = Eigen::Vector3d::UnitZ();
-  double longitudinal_N_ = 0.0;
-  double lateral_N_ = 0.0;
+  TyreForces forces_;
   double brake_on_wheel_Nm_ = 0.0;
   double spin_radps_ = 0.0;
   bool locked_ = false;

@@ -15,7 +15,7 @@ constexpr int kMaxHalvings = 3;
 
 TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
   return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps),
-          0.5 * (a.camber_rad + b.camber_rad)};
+          0.5 * (a.camber_rad + b.camber_rad), 0.5 * (a.turn_radps + b.turn_radps)};
 }
 
 }  // namespace
@@ -134,6 +134,7 @@ TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const multibody::Motion& 
   rolling.vsx_mps = rolling.vx_mps - wheels_[wheel].spin_radps * settings_.wheel.rolling_radius_m;
   rolling.vsy_mps = v.dot(contact.across_W);
   rolling.camber_rad = contact.camber_rad;
+  rolling.turn_radps = turning.dot(wheels_[wheel].normal_W);
   return rolling;
 }
 
@@ -205,8 +206,7 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
         wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], ends[i], foreseen[i].load_N, wheels_[i].friction, dt_s);
   double drive_Nm = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i) {
-    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i],
-                             wheels_[i].spin_radps);
+    wheels_[i].load->SetStep(forces_[i], torques_.friction_Nm[i], wheels_[i].spin_radps);
     drive_Nm += torques_.drive_Nm[i];
   }
   chassis_load_->SetDrive(drive_Nm);

@@ -59,6 +59,7 @@ void MultibodyModel::Publish(const Controls& controls, double dt_s) {
     w.spin_radps = wheel.spin_radps;
     w.longitudinal_N = forces_[i].longitudinal_N;
     w.lateral_N = forces_[i].lateral_N;
+    w.aligning_Nm = forces_[i].aligning_Nm;
     w.load_N = contacts[i].load_N;
     w.slip = wheel.tyre.slip();
     w.slip_angle_tan = wheel.tyre.slip_angle_tan();

@@ -104,6 +104,8 @@ MultibodySettings ReadMultibody(const Map& root) {
   const Map tyre = root.Child("tyre");
   car.tyre = {ReadTyre(tyre.Child("front")), ReadTyre(tyre.Child("rear"))};
   car.wheel = ReadWheel(root.Child("wheel"));
+  for (TyreSettings& each : car.tyre)
+    if (each.aligning && each.aligning->unloaded_radius == 0.0) each.aligning->unloaded_radius = car.wheel.radius_m;
   car.tyre_damping_Nspm = tyre.Number("vertical_damping_Nspm", {0.0, 1e5}, 0.0);
   car.brakes = ReadBrakes(root.Child("brakes"));
   car.powertrain = ReadPowertrain(root);

@@ -47,6 +47,7 @@ class OdeEquilibrium {
   CruiseForces cruise_;                    // at a speed
   std::array<double, 2> cruise_axle_N_{};  // then, across: front, rear
   std::array<double, 2> axle_load_N_{};
+  std::array<double, kWheels> aligning_Nm_{};  // then
   Eigen::Vector3d holding_W_ =
       Eigen::Vector3d::Zero();  // of all tyres together along the road, so that nothing accelerates
   double load_N_ = 0.0;         // of all
@@ -137,6 +138,7 @@ void OdeEquilibrium::ShareAcross() {
   axle_load_N_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) axle_load_N_[i / 2] += model_.contacts_[i].load_N;
   double yaws_Nm = 0.0;
+  aligning_Nm_ = {};
   std::array<double, 2> arm_m{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     const OdeModel::Contact& contact = model_.contacts_[i];
@@ -148,8 +150,23 @@ void OdeEquilibrium::ShareAcross() {
     arm_m[i / 2] += share * (contact.point_W - centre).cross(contact.across_W).dot(normal_W_);
   }
   const double all_N = holding_W_.dot(across);
-  cruise_axle_N_[0] = (-yaws_Nm - all_N * arm_m[1]) / (arm_m[0] - arm_m[1]);
-  cruise_axle_N_[1] = all_N - cruise_axle_N_[0];
+  // The aligning moments follow the side forces, which make up for them: what is missing falls to some hundredths each
+  // turn.
+  for (int turn = 0; turn < kMomentTurns; ++turn) {
+    const double aligning_Nm = aligning_Nm_[0] + aligning_Nm_[1] + aligning_Nm_[2] + aligning_Nm_[3];
+    cruise_axle_N_[0] = (-yaws_Nm - aligning_Nm - all_N * arm_m[1]) / (arm_m[0] - arm_m[1]);
+    cruise_axle_N_[1] = all_N - cruise_axle_N_[0];
+    double change_Nm = 0.0;
+    for (std::size_t i = 0; i < kWheels; ++i) {
+      const OdeModel::Contact& contact = model_.contacts_[i];
+      const double moment_Nm =
+          CruiseMoment(model_.tyres_[i], {Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)},
+                       initial_.speed_mps, contact.load_N, model_.now_.wheels[i].friction, contact.camber_rad);
+      change_Nm = std::max(change_Nm, std::fabs(moment_Nm - aligning_Nm_[i]));
+      aligning_Nm_[i] = moment_Nm;
+    }
+    if (change_Nm < kSameMoment_Nm) break;
+  }
 }
 
 OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
@@ -173,7 +190,8 @@ OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
     force += road + weight;
     moment -= model_.Travel(i) * up.cross(across);
     moment += (model_.contacts_[i].point_W - chassis.p_WG_W).cross(road) +
-              (model_.now_.bodies[i].p_WG_W - chassis.p_WG_W).cross(weight);
+              (model_.now_.bodies[i].p_WG_W - chassis.p_WG_W).cross(weight) +
+              aligning_Nm_[i] * model_.now_.wheels[i].normal_W;
   }
   const Eigen::Vector3d moment_B = chassis.q_WG.conjugate() * moment;
   residual.head<3>() = Eigen::Vector3d(force.dot(up), moment_B.y(), moment_B.x());

@@ -79,6 +79,7 @@ TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
   motion.vsx_mps = motion.vx_mps - now_.wheels[wheel].spin_radps * settings_.car.wheel.rolling_radius_m;
   motion.vsy_mps = (hub.v_WG_W + turning.cross(contact.point_W - hub.p_WG_W)).dot(contact.across_W);
   motion.camber_rad = contact.camber_rad;
+  motion.turn_radps = turning.dot(now_.wheels[wheel].normal_W);
   return motion;
 }
 
@@ -110,6 +111,7 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
                contact.load_N * now_.wheels[i].normal_W + contact.forces.longitudinal_N * contact.along_W +
                    contact.forces.lateral_N * contact.across_W,
                contact.point_W);
+    car_->Twist(i, contact.forces.aligning_Nm * now_.wheels[i].normal_W);
     car_->Strut(i, StrutExtra(i));
     car_->TurnWheel(i, SteerAngle(i, controls.steering_wheel_rad), now_.wheels[i].spin_radps);
   }

@@ -8,21 +8,13 @@
 
 namespace rodeira::dynamics {
 
-// The front tyres turn their carriers by side force × trail; the pneumatic part vanishes as the tyre slides.
+// The front tyres turn their carriers by aligning moment and side force × mechanical trail.
 double OdeModel::SteeringTorque() const {
   const SteeringSettings& steering = settings_.car.steering;
-  const TyreSettings& tyre = settings_.car.tyre[0];
   double torque = 0.0;
-  for (const std::size_t i : {kFrontLeft, kFrontRight}) {
-    const double load = contacts_[i].load_N;
-    const double peak = LateralPeak(tyre, load, now_.wheels[i].friction);
-    const double stiffness = std::max(1.0, CorneringStiffness(tyre, load));
-    const double sliding =
-        peak > 0.0 ? std::min(1.0, std::fabs(now_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
-    const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
-    torque -= trail * contacts_[i].forces.lateral_N / steering.ratio;
-  }
-  return torque;
+  for (const std::size_t i : {kFrontLeft, kFrontRight})
+    torque += contacts_[i].forces.aligning_Nm - steering.mechanical_trail_m * contacts_[i].forces.lateral_N;
+  return torque / steering.ratio;
 }
 
 void OdeModel::Publish(const Controls& controls, double dt_s) {
@@ -50,6 +42,7 @@ void OdeModel::Publish(const Controls& controls, double dt_s) {
     w.spin_radps = wheel.spin_radps;
     w.longitudinal_N = contacts_[i].forces.longitudinal_N;
     w.lateral_N = contacts_[i].forces.lateral_N;
+    w.aligning_Nm = contacts_[i].forces.aligning_Nm;
     w.load_N = contact.load_N;
     w.slip = wheel.tyre.slip();
     w.slip_angle_tan = wheel.tyre.slip_angle_tan();

@@ -17,6 +17,16 @@ constexpr double kRadpsPerRpm = geometry::kPi / 30.0;
 
 double Rpm(const config::DeclaredMap& map, const char* key) { return map.Number(key) * kRadpsPerRpm; }
 
+// Coefficients of the aligning moment, beside the ones that `tyre` has. Without a trail there is no moment.
+void ReadAligning(const config::DeclaredMap& map, const std::vector<config::Key>& keys, TyreSettings& tyre) {
+  AligningSettings aligning = tyre.aligning.value_or(AligningSettings{});
+  for (const AligningCoefficient& coefficient : AligningCoefficients()) {
+    double& value = aligning.*coefficient.member;
+    value = map.MapWith(coefficient.name).Number(coefficient.name, FindKey(keys, coefficient.name)->range, value);
+  }
+  if (tyre.aligning || aligning.qdz1 != 0.0) tyre.aligning = aligning;
+}
+
 std::vector<TorqueSample> ReadCurve(const config::DeclaredMap& map) {
   constexpr const char* kKey = "full_load_rpm_Nm";
   std::vector<TorqueSample> samples;
@@ -185,6 +195,7 @@ TyreSettings ReadTyre(const Map& given) {
   tyre.relaxation_longitudinal_m = map.Number("relaxation_longitudinal_m");
   tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m");
   tyre.low_speed_mps = map.Number("low_speed_mps");
+  tyre.pneumatic_trail_m = map.Number("pneumatic_trail_m");
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm");
   if (map.map().Has("slip_curve")) {
     for (const char* other : {"tir", "magic_formula"}) {
@@ -195,8 +206,16 @@ TyreSettings ReadTyre(const Map& given) {
     const Map curve = map.MapWith("slip_curve").Child("slip_curve");
     tyre.slip_curve =
         SlipCurveSettings{ReadSlipCurve(curve.Child("longitudinal")), ReadSlipCurve(curve.Child("lateral"))};
+    if (map.map().Has("aligning")) {
+      const config::DeclaredMap aligning = map.Child("aligning");
+      tyre.formula.fnomin = aligning.Number("FNOMIN");
+      ReadAligning(aligning, AligningKeys(), tyre);
+    }
     return tyre;
   }
+  if (map.map().Has("aligning"))
+    map.map().Problem("aligning", "config.conflicting_keys",
+                      "'aligning' stands without 'slip_curve'; its coefficients were expected in 'magic_formula'");
   // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
   if (const auto tir = map.MapWith("tir").OptionalPath("tir")) {
     auto file = LoadTyreFile(*tir);
@@ -205,6 +224,7 @@ TyreSettings ReadTyre(const Map& given) {
     } else {
       tyre.formula = file.value().formula;
       tyre.model = file.value().model;
+      tyre.aligning = file.value().aligning;
       if (tyre.model && map.map().Has("magic_formula"))
         map.map().Problem("magic_formula", "config.conflicting_keys",
                           fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
@@ -221,6 +241,7 @@ TyreSettings ReadTyre(const Map& given) {
     value = coefficients.MapWith(coefficient.name)
                 .Number(coefficient.name, FindKey(FormulaKeys(), coefficient.name)->range, value);
   }
+  ReadAligning(coefficients, FormulaKeys(), tyre);
   return tyre;
 }
 

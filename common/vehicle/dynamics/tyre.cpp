@@ -11,6 +11,7 @@ constexpr double kPeakReach = 3.0;    // peaks lie at two to three times D / K
 constexpr double kSpeedReach = 20.0;  // how far past the peak the deflection may go, a low_speed of motion
 constexpr double kFadeInAir_s = 0.01;
 constexpr double kTiny_N = 1.0;
+constexpr double kTinyTwist_rad = 1e-12;
 
 // 1 at standstill, 0 from low_speed on, smooth at both ends.
 double LowSpeedShare(const TyreSettings& tyre, double vx_mps) {
@@ -59,6 +60,34 @@ double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
                          : LateralPeak(tyre.formula, load_N, friction);
 }
 
+TyreForces SteadyForcesWithMoment(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+  if (tyre.aligning && !tyre.model && !tyre.slip_curve)
+    return SteadyForcesWithMoment(tyre.formula, *tyre.aligning, slip, load_N, friction);
+  TyreForces forces = SteadyForces(tyre, slip, load_N, friction);
+  if (!(load_N > 0.0) || !(friction > 0.0)) return forces;
+  if (tyre.aligning) {
+    const double ratio = LongitudinalStiffness(tyre, load_N) / std::max(CorneringStiffness(tyre, load_N), kTiny_N);
+    forces.aligning_Nm =
+        -PneumaticTrail(tyre.formula, *tyre.aligning, slip, ratio, load_N, friction) * forces.lateral_N;
+  } else if (tyre.pneumatic_trail_m > 0.0) {
+    const double peak_N = LateralPeak(tyre, load_N, friction);
+    const double sliding =
+        peak_N > 0.0 ? std::fabs(slip.tan_alpha) * CorneringStiffness(tyre, load_N) / (3.0 * peak_N) : 1.0;
+    forces.aligning_Nm = -tyre.pneumatic_trail_m * std::max(0.0, 1.0 - sliding) * forces.lateral_N;
+  }
+  return forces;
+}
+
+TurnedPatch TurnedPatchOf(const TyreSettings& tyre, double load_N, double friction) {
+  if (!(load_N > 0.0)) return {};
+  const double length_m = std::sqrt(load_N / tyre.formula.inflpres);
+  TurnedPatch patch;
+  patch.half_length_m = 0.5 * length_m;
+  patch.stiffness_Nmprad = CorneringStiffness(tyre, load_N) * patch.half_length_m / 3.0;
+  patch.most_Nm = LateralPeak(tyre, load_N, friction) * length_m / 3.0;
+  return patch;
+}
+
 TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double load_N) {
   const double speed = std::fabs(motion.vx_mps);
   const double damping_N = speed * tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
@@ -73,14 +102,41 @@ TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, doub
     slip_angle_tan_ = 0.0;
     return {};
   }
-  const double damping = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
+  const double standing = LowSpeedShare(tyre, motion.vx_mps);
+  const double damping = tyre.low_speed_damping_Nspm * standing;
   slip_ = u_m_ / tyre.relaxation_longitudinal_m;
   slip_angle_tan_ = v_m_ / tyre.relaxation_lateral_m;
   if (damping > 0.0) {
     slip_ -= damping / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N) * motion.vsx_mps;
     slip_angle_tan_ += damping / std::max(CorneringStiffness(tyre, load_N), kTiny_N) * motion.vsy_mps;
   }
-  return SteadyForces(tyre, {slip_, slip_angle_tan_, motion.camber_rad}, load_N, friction);
+  const TyreSlip slip{slip_, slip_angle_tan_, motion.camber_rad};
+  TyreForces forces = standing < 1.0 ? SteadyForcesWithMoment(tyre, slip, load_N, friction)
+                                     : SteadyForces(tyre, slip, load_N, friction);
+  forces.aligning_Nm *= std::copysign(1.0 - standing, motion.vx_mps);
+  if (std::fabs(twist_rad_) > kTinyTwist_rad) forces.aligning_Nm += TwistTorque(tyre, forces, load_N, friction);
+  return forces;
+}
+
+// What the patch's twist gives while friction holds these forces, too.
+double Tyre::TwistTorque(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction) const {
+  const TurnedPatch patch = TurnedPatchOf(tyre, load_N, friction);
+  const double along = LongitudinalPeak(tyre, load_N, friction), across = LateralPeak(tyre, load_N, friction);
+  if (!(along > 0.0) || !(across > 0.0)) return 0.0;
+  const double x = forces.longitudinal_N / along, y = forces.lateral_N / across;
+  const double most_Nm = patch.most_Nm * std::sqrt(std::max(0.0, 1.0 - x * x - y * y));
+  return std::clamp(-patch.stiffness_Nmprad * twist_rad_, -most_Nm, most_Nm);
+}
+
+void Tyre::AdvanceTwist(const TyreSettings& tyre, double turned_rad, double rolled_m, double load_N, double friction) {
+  if (turned_rad == 0.0 && twist_rad_ == 0.0) return;
+  const TurnedPatch patch = TurnedPatchOf(tyre, load_N, friction);
+  if (!(patch.stiffness_Nmprad > 0.0)) {
+    twist_rad_ = 0.0;
+    return;
+  }
+  const double most_rad = patch.most_Nm / patch.stiffness_Nmprad;
+  twist_rad_ = std::clamp((twist_rad_ + turned_rad) / (1.0 + rolled_m / patch.half_length_m), -most_rad, most_rad);
 }
 
 void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s) {
@@ -88,6 +144,7 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double lo
   const double travel = std::fabs(motion.vx_mps) * dt_s;
   u_m_ = (u_m_ - dt_s * motion.vsx_mps) / (1.0 + travel / tyre.relaxation_longitudinal_m);
   v_m_ = (v_m_ + dt_s * motion.vsy_mps) / (1.0 + travel / tyre.relaxation_lateral_m);
+  AdvanceTwist(tyre, dt_s * motion.turn_radps, travel, load_N, friction);
   CutNearThePeak(tyre, motion, load_N, friction);
 }
 
@@ -100,6 +157,7 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& before, const Tyr
   const double sigma_a = tyre.relaxation_lateral_m;
   u_m_ = (u_m_ * (1.0 - rolled / sigma_k) - half_s * (before.vsx_mps + after.vsx_mps)) / (1.0 + rolls / sigma_k);
   v_m_ = (v_m_ * (1.0 - rolled / sigma_a) + half_s * (before.vsy_mps + after.vsy_mps)) / (1.0 + rolls / sigma_a);
+  AdvanceTwist(tyre, half_s * (before.turn_radps + after.turn_radps), rolled + rolls, load_N, friction);
   CutNearThePeak(tyre, after, load_N, friction);
 }
 
@@ -117,6 +175,7 @@ void Tyre::FadeInAir(double dt_s) {
   const double left = std::max(0.0, 1.0 - dt_s / kFadeInAir_s);
   u_m_ *= left;
   v_m_ *= left;
+  twist_rad_ *= left;
 }
 
 void Tyre::CutNearThePeak(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
@@ -163,18 +222,20 @@ void Tyre::SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double 
 TyreMotion Tyre::SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N,
                                   double friction, double camber_rad) {
   SetToBear(tyre, forces, load_N, friction, camber_rad);
-  if (!(load_N > 0.0)) return {vx_mps, 0.0, 0.0, camber_rad};
+  if (!(load_N > 0.0)) return {vx_mps, 0.0, 0.0, camber_rad, 0.0};
   // Forces() adds the damping's part to the deflections' slip.
   const double damping_Nspm = tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, vx_mps);
   u_m_ /= 1.0 + damping_Nspm * std::fabs(vx_mps) / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
   v_m_ /= 1.0 + damping_Nspm * std::fabs(vx_mps) / std::max(CorneringStiffness(tyre, load_N), kTiny_N);
   const double speed = std::fabs(vx_mps);
-  return {vx_mps, -speed * u_m_ / tyre.relaxation_longitudinal_m, speed * v_m_ / tyre.relaxation_lateral_m, camber_rad};
+  return {vx_mps, -speed * u_m_ / tyre.relaxation_longitudinal_m, speed * v_m_ / tyre.relaxation_lateral_m, camber_rad,
+          0.0};
 }
 
 void Tyre::Save(base::StateWriter& writer) const {
   writer.Put("u_m", u_m_);
   writer.Put("v_m", v_m_);
+  writer.Put("twist_rad", twist_rad_);
   writer.Put("slip", slip_);
   writer.Put("slip_angle_tan", slip_angle_tan_);
 }
@@ -182,6 +243,7 @@ void Tyre::Save(base::StateWriter& writer) const {
 void Tyre::Restore(base::StateReader& reader) {
   reader.Get("u_m", u_m_);
   reader.Get("v_m", v_m_);
+  reader.Get("twist_rad", twist_rad_);
   reader.Get("slip", slip_);
   reader.Get("slip_angle_tan", slip_angle_tan_);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/core/base/state.hpp"
+#include "common/vehicle/dynamics/aligning_moment.hpp"
 #include "common/vehicle/dynamics/magic_formula.hpp"
 #include "common/vehicle/dynamics/slip_curve.hpp"
 #include "common/vehicle/dynamics/tyre_model.hpp"
@@ -16,8 +17,10 @@ struct TyreSettings {
   MagicFormulaSettings formula;
   std::optional<SlipCurveSettings> slip_curve = std::nullopt;  // where it is there, in the formula's place
   std::shared_ptr<const TyreModel> model = nullptr;            // another one in the formula's place
-  double relaxation_longitudinal_m = 0.2;                      // sigma_kappa
-  double relaxation_lateral_m = 0.4;                           // sigma_alpha
+  std::optional<AligningSettings> aligning = std::nullopt;     // with another model of the forces: the trail only
+  double pneumatic_trail_m = 0.0;          // without `aligning`: at no slip; it vanishes as the tyre slides
+  double relaxation_longitudinal_m = 0.2;  // sigma_kappa
+  double relaxation_lateral_m = 0.4;       // sigma_alpha
   double low_speed_mps = 2.5;  // below it the damping fades in and the deflection is held to what friction bears
   double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
 };
@@ -32,6 +35,20 @@ double LongitudinalStiffness(const TyreSettings& tyre, double load_N);
 double CorneringStiffness(const TyreSettings& tyre, double load_N);
 double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction);
 double LateralPeak(const TyreSettings& tyre, double load_N, double friction);
+// The same forces with the aligning moment of a tyre that rolls forward: by `aligning`, or as side force times
+// `pneumatic_trail_m` (1 - |tan alpha| K / (3 D)), at least 0.
+TyreForces SteadyForcesWithMoment(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction);
+
+// The contact patch that is turned about the road's normal while the tyre does not roll: a square of area load over
+// pressure p. Its bristles give it a stiffness of cornering stiffness × half length / 3 (brush model: H. B. Pacejka,
+// Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 3.2), and friction bounds its torque to mu/3 sqrt(load³/p) (Gough's
+// formula, compared with measurements by R. S. Sharp and R. Granger, Proc. IMechE D 217 (2003) 87-96).
+struct TurnedPatch {
+  double half_length_m = 0.0;
+  double stiffness_Nmprad = 0.0;
+  double most_Nm = 0.0;
+};
+TurnedPatch TurnedPatchOf(const TyreSettings& tyre, double load_N, double friction);
 
 // How the wheel moves over the ground, in its contact frame.
 struct TyreMotion {
@@ -39,6 +56,7 @@ struct TyreMotion {
   double vsx_mps = 0.0;     // slip speed along the wheel: vx - spin · rolling radius; positive when braked
   double vsy_mps = 0.0;     // slip speed to the left
   double camber_rad = 0.0;  // about the contact's x axis: positive when the wheel leans to the right
+  double turn_radps = 0.0;  // of the wheel's carrier about the contact's z axis, positive to the left
 };
 
 // What the forces go by where the wheel rolls steadily (vx not 0), the damping of low speeds included.
@@ -50,6 +68,11 @@ TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double l
 // The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope
 // without creeping; below low_speed a damper is added inside of the formula (so friction bounds it too), and the
 // deflections are cut near the peak, so that a car that has slid comes to rest without springing back.
+//
+// The aligning moment acts as far as the tyre rolls: not at standstill, wholly from low_speed on, with the other sign
+// in reverse. The patch's twist w about the normal goes by the same equation, with half the patch's length a:
+//   a dw/dt + |vx| w = a turn,
+// and turns back by its stiffness times w, so that the torque of parking fades as the wheel begins to roll.
 class Tyre {
  public:
   // The forces at the present deflections. Keeps the slips for slip() and slip_angle_tan().
@@ -84,9 +107,13 @@ class Tyre {
  private:
   void FadeInAir(double dt_s);
   void CutNearThePeak(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
+  // `turned_rad` during the step, in which the wheel rolls `rolled_m`.
+  void AdvanceTwist(const TyreSettings& tyre, double turned_rad, double rolled_m, double load_N, double friction);
+  double TwistTorque(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction) const;
 
   double u_m_ = 0.0;
   double v_m_ = 0.0;
+  double twist_rad_ = 0.0;
   double slip_ = 0.0;
   double slip_angle_tan_ = 0.0;
 };

@@ -23,7 +23,14 @@ constexpr double kRpm_radps = geometry::kPi / 30.0;
 // Loads and pressures, which a factor or a shift is not.
 bool IsSize(std::string_view coefficient) {
   return coefficient == "FNOMIN" || coefficient == "FZMAX" || coefficient == "NOMPRES" || coefficient == "INFLPRES" ||
-         coefficient == "LFZO";
+         coefficient == "LFZO" || coefficient == "UNLOADED_RADIUS";
+}
+
+Key CoefficientKey(std::string_view name, double value, std::string meaning) {
+  const config::Range range = IsSize(name) ? config::Range::Positive() : config::Range{};
+  Key key = config::ComputedNumberKey(std::string(name), range, "that of `tir`", std::move(meaning));
+  if (value >= range.low && value <= range.high) key.default_note = fmt::format("that of `tir`, else {}", value);
+  return key;
 }
 
 }  // namespace
@@ -36,15 +43,25 @@ const std::vector<Key>& FormulaKeys() {
   static const std::vector<Key> keys = [] {
     const MagicFormulaSettings usual;
     std::vector<Key> all;
-    for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {
-      const config::Range range = IsSize(coefficient.name) ? config::Range::Positive() : config::Range{};
-      const double value = usual.*coefficient.member;
-      const bool fits = value >= range.low && value <= range.high;
-      Key key = config::ComputedNumberKey(std::string(coefficient.name), range, "that of `tir`",
-                                          "Coefficient of the Magic Formula.");
-      if (fits) key.default_note = fmt::format("that of `tir`, else {}", value);
-      all.push_back(std::move(key));
-    }
+    for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients())
+      all.push_back(
+          CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the Magic Formula."));
+    const AligningSettings aligning;
+    for (const AligningCoefficient& coefficient : AligningCoefficients())
+      all.push_back(
+          CoefficientKey(coefficient.name, aligning.*coefficient.member, "Coefficient of the aligning moment."));
+    return all;
+  }();
+  return keys;
+}
+
+const std::vector<Key>& AligningKeys() {
+  static const std::vector<Key> keys = [] {
+    const AligningSettings usual;
+    std::vector<Key> all{WithSample("3000", RequiredNumberKey("FNOMIN", config::Range::Positive(), "Nominal load."))};
+    for (const AligningCoefficient& coefficient : AligningCoefficients())
+      all.push_back(
+          CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the aligning moment."));
     return all;
   }();
   return keys;
@@ -216,6 +233,8 @@ const std::vector<Key>& TyreKeys() {
       RequiredNumberKey("relaxation_longitudinal_m", {0.05, 5.0}, "Relaxation length along the wheel."),
       RequiredNumberKey("relaxation_lateral_m", {0.05, 5.0}, "Relaxation length across the wheel."),
       NumberKey("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps, "Below this speed a damper fades in."),
+      WithDefaultNote("that of `steering`", NumberKey("pneumatic_trail_m", {0.0, 0.2}, tyre.pneumatic_trail_m,
+                                                      "Trail of a tyre without an aligning moment.")),
       NumberKey("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm, "Damping at rest."),
       config::ComputedTextKey("tir", "none", "", "Tyre property file."),
       WithSample("{}", config::Summarised("as in tyre files",
@@ -225,7 +244,9 @@ const std::vector<Key>& TyreKeys() {
                  {config::Required(MappingKey("longitudinal", SlipCurveKeys(), "Along the wheel.")),
                   config::Required(config::Summarised("as `longitudinal`",
                                                       MappingKey("lateral", SlipCurveKeys(), "Across the wheel.")))},
-                 "Instead of the coefficients.")};
+                 "Instead of the coefficients."),
+      config::Summarised("`FNOMIN` and `Q…` as in tyre files",
+                         MappingKey("aligning", AligningKeys(), "Aligning moment beside `slip_curve`."))};
   return keys;
 }
 

@@ -27,8 +27,9 @@ const std::vector<config::Key>& SlipCurveKeys();
 const std::vector<config::Key>& TyreKeys();
 const std::vector<config::Key>& OdeKeys();
 const std::vector<config::Key>& FmuDimensionKeys();
-// Coefficients of the Magic Formula.
+// Coefficients of the Magic Formula with those of its aligning moment; of the aligning moment alone.
 const std::vector<config::Key>& FormulaKeys();
+const std::vector<config::Key>& AligningKeys();
 config::Key EnvelopingKey();
 
 }  // namespace rodeira::dynamics

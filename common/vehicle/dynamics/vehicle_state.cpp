@@ -18,6 +18,7 @@ void VisitWheel(Wheel& wheel, Visit&& visit) {
   visit("spin_radps", wheel.spin_radps);
   visit("longitudinal_N", wheel.longitudinal_N);
   visit("lateral_N", wheel.lateral_N);
+  visit("aligning_Nm", wheel.aligning_Nm);
   visit("load_N", wheel.load_N);
   visit("slip", wheel.slip);
   visit("slip_angle_tan", wheel.slip_angle_tan);

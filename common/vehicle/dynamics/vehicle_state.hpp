@@ -42,6 +42,7 @@ struct WheelState {
   double spin_radps = 0.0;       ///< angular speed about the axle, positive rolling forward
   double longitudinal_N = 0.0;   ///< tyre force along x of the contact frame
   double lateral_N = 0.0;        ///< tyre force along y of the contact frame
+  double aligning_Nm = 0.0;      ///< tyre moment about z of the contact frame, positive to the left
   double load_N = 0.0;           ///< tyre force along z of the contact frame; 0: the wheel is in the air
   double slip = 0.0;             ///< kappa' of the transient tyre; 1: spinning, -1: locked
   double slip_angle_tan = 0.0;   ///< tan alpha' of the transient tyre = v_y / |v_x|; positive: force to the right

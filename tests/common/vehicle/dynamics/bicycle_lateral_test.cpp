@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/common/vehicle/dynamics/test_car.hpp"
+#include "tests/common/vehicle/dynamics/test_ground.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -32,7 +33,10 @@ TEST(BicycleLateral, SteadyYawRateIsTheClosedForm) {
   const double a = 1.0, b = 1.46, l = 2.46, m = settings.body.mass_kg;
   const double cf = 2 * CorneringStiffness(settings.tyre[0].formula, m * kG_mps2 * b / l / 2);
   const double cr = 2 * CorneringStiffness(settings.tyre[1].formula, m * kG_mps2 * a / l / 2);
-  const double kus = m / l * (b / cf - a / cr);
+  // Each side force acts a pneumatic trail behind its wheel.
+  const double trail = TrailAtNoSlip(settings.tyre[0], m * kG_mps2 * b / l / 2), front = a - trail,
+               rear = b + TrailAtNoSlip(settings.tyre[1], m * kG_mps2 * a / l / 2);
+  const double kus = m / l * (rear / cf - front / cr);
   for (const double speed : {5.0, 15.0, 30.0, 45.0}) {
     BicycleModel car = PlacedCar(settings, ground, {.speed_mps = speed});
     const double expected = speed / (l + kus * speed * speed);
@@ -43,12 +47,14 @@ TEST(BicycleLateral, SteadyYawRateIsTheClosedForm) {
     EXPECT_NEAR(s.w_WB_B.z() / steer, expected, 0.02 * expected) << speed;
     // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
     const SteeringSettings& steering = settings.steering;
-    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * s.w_WB_B.z() *
-                            s.speed_mps() / steering.ratio;
+    const double feedback =
+        -((steering.mechanical_trail_m + trail) * m * rear / l * s.w_WB_B.z() * s.speed_mps() +
+          2.0 * TwistOnABend(settings.tyre[0], m * kG_mps2 * b / l / 2, s.w_WB_B.z() / s.speed_mps())) /
+        steering.ratio;
     EXPECT_NEAR(s.steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
     // beta / delta at the centre of gravity, = (b - a m V² / (L Cr)) / (L + Kus V²).
     const double beta = (s.v_WB_B().y() + s.w_WB_B.z() * (l / 2 - a)) / s.speed_mps();
-    const double beta_expected = (b - a * m * speed * speed / (l * cr)) / (l + kus * speed * speed) * steer;
+    const double beta_expected = (b - front * m * speed * speed / (l * cr)) / (l + kus * speed * speed) * steer;
     // It is a difference of two terms: within 2 % of the larger of itself and the first.
     const double first = b / (l + kus * speed * speed) * steer;
     EXPECT_NEAR(beta, beta_expected, 0.02 * std::max(first, std::fabs(beta_expected))) << speed;
@@ -73,6 +79,7 @@ TEST(BicycleLateral, AStepOfSteerAnswersAsTheClosedFormSays) {
   const double load[] = {1500 * kG_mps2 * 1.5 / 2.7 / 2, 1500 * kG_mps2 * 1.2 / 2.7 / 2};
   for (std::size_t axle = 0; axle < 2; ++axle) {
     s.tyre[axle].relaxation_lateral_m = 0.05;
+    s.tyre[axle].aligning.reset();
     s.tyre[axle].formula.lky *= 0.5 * stiffness[axle] / CorneringStiffness(s.tyre[axle].formula, load[axle]);
   }
   PlaneGround ground;
@@ -102,7 +109,7 @@ TEST(BicycleLateral, LoadTransferIsMAHOverT) {
   }
   PlaneGround ground;
   BicycleModel car = PlacedCar(settings, ground, {.speed_mps = 20.0});
-  Drive(car, ground, Steering(0.35), 6.0);
+  Drive(car, ground, Steering(0.37), 6.0);
   const VehicleState& s = car.state();
   const double ay = s.w_WB_B.z() * s.speed_mps();
   EXPECT_GT(ay, 2.5);

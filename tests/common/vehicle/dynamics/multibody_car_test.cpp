@@ -259,7 +259,7 @@ TEST(PrototypeDynamics, SteeringTorqueIsThatOfKingpinTieRodsAndPinion) {
                             along = axle.cross(w.contact_normal_W).normalized();
       const Eigen::Vector3d force =
           w.longitudinal_N * along + w.lateral_N * w.contact_normal_W.cross(along) + w.load_N * w.contact_normal_W;
-      Eigen::Vector3d about_hub = (w.contact_W - hub).cross(force);
+      Eigen::Vector3d about_hub = (w.contact_W - hub).cross(force) + w.aligning_Nm * w.contact_normal_W;
       about_hub -= about_hub.dot(axle) * axle;  // the wheel turns freely
       about_hub -= model.settings().wheel.inertia_kgm2 * w.spin_radps * turning.cross(axle);
       const auto& carrier = drawing.bodies[static_cast<std::size_t>(model.settings().wheels[i].carrier)];

@@ -116,7 +116,10 @@ TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
   const double a = body.cg_to_front_axle_m, l = body.wheelbase_m, b = l - a, m = body.mass_kg;
   const double cf = 2 * CorneringStiffness(settings.car.tyre[0], m * kG * b / l / 2);
   const double cr = 2 * CorneringStiffness(settings.car.tyre[1], m * kG * a / l / 2);
-  const double kus = m / l * (b / cf - a / cr);
+  // Each side force acts a pneumatic trail behind its wheel.
+  const double trail = TrailAtNoSlip(settings.car.tyre[0], m * kG * b / l / 2), front = a - trail,
+               rear = b + TrailAtNoSlip(settings.car.tyre[1], m * kG * a / l / 2);
+  const double kus = m / l * (rear / cf - front / cr);
   for (const double speed : {5.0, 15.0, 30.0, 45.0}) {
     ASSERT_TRUE(car->Initialise({.speed_mps = speed}, ground).ok());
     const double steer = 0.4 * (l + kus * speed * speed) / (speed * speed);  // 0.4 m/s²
@@ -127,8 +130,10 @@ TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
     EXPECT_NEAR(car->state().w_WB_B.z() / steer, expected, 0.05 * expected) << speed;
     // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
     const SteeringSettings& steering = settings.car.steering;
-    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l *
-                            car->state().w_WB_B.z() * v / steering.ratio;
+    const double feedback =
+        -((steering.mechanical_trail_m + trail) * m * rear / l * car->state().w_WB_B.z() * v +
+          2.0 * TwistOnABend(settings.car.tyre[0], m * kG * b / l / 2, car->state().w_WB_B.z() / v)) /
+        steering.ratio;
     EXPECT_NEAR(car->state().steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
   }
 }

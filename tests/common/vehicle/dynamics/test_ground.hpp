@@ -6,8 +6,22 @@
 
 #include "common/core/base/random.hpp"
 #include "common/core/ground/ground.hpp"
+#include "common/vehicle/dynamics/tyre.hpp"
 
 namespace rodeira::dynamics {
+
+// D_t of the Magic Formula's trail (Pacejka, 3rd ed., (4.E42)) with coefficients of the load alone, m.
+inline double TrailAtNoSlip(const TyreSettings& tyre, double load_N) {
+  const AligningSettings& a = tyre.aligning.value();
+  const double dfz = load_N / tyre.formula.fnomin - 1.0;
+  return load_N * (a.qdz1 + a.qdz2 * dfz) * a.unloaded_radius / tyre.formula.fnomin;
+}
+
+// Torque of the patch's twist of a tyre that rolls round a bend of this curvature: a dw/dt + |vx| w = a turn, steadily.
+inline double TwistOnABend(const TyreSettings& tyre, double load_N, double curvature_pm) {
+  const TurnedPatch patch = TurnedPatchOf(tyre, load_N, 1.0);
+  return patch.stiffness_Nmprad * patch.half_length_m * curvature_pm;
+}
 
 // Seeded hills: three sines each way; amplitude and steepness by the seed. Optionally cut into terraces (vertical
 // steps), with a world's edge, and with ice here and there. Counts the batches.
