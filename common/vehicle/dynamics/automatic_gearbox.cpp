@@ -12,7 +12,20 @@ constexpr double kMatched_radps = 10.0;        // near enough to the new gear's 
 constexpr double kMatchGain = 0.02;            // throttle a rad/s that the engine is too slow
 constexpr double kLoadSmoothing_s = 0.4;
 constexpr double kTouched = 0.05;      // less throttle than this is coasting
-constexpr double kAnotherPedal = 0.1;  // the driver has changed his mind
+constexpr double kAnotherPedal = 0.1;  // a pedal that is held differs by less
+constexpr double kKeeps = 0.9;         // of the load: a gear that gives as much nearly keeps the speed
+constexpr double kDeadPedal = 0.02;
+// Torque of the clutch below the bite, of the engine's full load there: by the pedal, at most, and none towards a
+// stall.
+constexpr double kCreepShare = 2.0, kMostCreep = 0.35;
+
+double CreepTorque(const AutomaticSettings& settings, const EngineSettings& engine, double throttle,
+                   double engine_radps) {
+  if (throttle <= kDeadPedal) return 0.0;
+  const double low = 1.3 * engine.stall_radps;
+  const double turns = std::clamp((engine_radps - low) / std::max(engine.idle_radps - low, 1.0), 0.0, 1.0);
+  return turns * std::min(kCreepShare * throttle, kMostCreep) * FullLoadTorque(engine, settings.bite_radps);
+}
 
 double Interpolate(double light, double full, double throttle) { return light + (full - light) * throttle; }
 
@@ -49,6 +62,10 @@ bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const Gearb
   const double most = WheelTorque(gearbox, engine, next, input.wheel_radps, 1.0);
   const double least = WheelTorque(gearbox, engine, next, input.wheel_radps, 0.0);
   if (load > most) return false;
+  if (input.throttle > kTouched &&
+      WheelTorque(gearbox, engine, gear_, input.wheel_radps, input.throttle) > kKeeps * load_Nm_ &&
+      WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle) < load)
+    return false;
   if (next == weak_gear_ && load > WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle)) return false;
   const double pedal = std::clamp((load - least) / (most - least), pedal_, 1.0);
   const double leave = Interpolate(settings.down_light_radps, settings.down_full_radps, pedal);
@@ -150,8 +167,10 @@ AutomaticOutput AutomaticGearbox::Step(const AutomaticSettings& settings, const 
   // The clutch of the launch closes with the faster of its two sides; that of a change follows its ramp.
   const double input_radps = TotalRatio(gearbox, gear_) * input.wheel_radps;
   const double faster = std::max(input.engine_radps, input_radps);
-  const double launch =
-      1.0 - std::clamp((faster - settings.bite_radps) / (settings.closed_radps - settings.bite_radps), 0.0, 1.0);
+  const double bitten =
+      std::clamp((faster - settings.bite_radps) / (settings.closed_radps - settings.bite_radps), 0.0, 1.0);
+  const double creep = CreepTorque(settings, engine, input.throttle, input.engine_radps) / input.clutch_capacity_Nm;
+  const double launch = 1.0 - std::min(1.0, std::max(bitten, creep));
   double ramp = 0.0;
   if (phase_ == Phase::kOpen) ramp = phase_s_ / settings.open_s;
   if (phase_ == Phase::kSwap) ramp = 1.0;

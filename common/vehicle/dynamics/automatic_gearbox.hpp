@@ -35,6 +35,7 @@ struct AutomaticInput {
   double wheel_radps = 0.0;  // mean of the driven wheels
   double speed_mps = 0.0;    // forward
   double load_Nm = 0.0;      // torque at the wheels that keeps the speed: drive torque - mass × radius × acceleration
+  double clutch_capacity_Nm = 200.0;
 };
 
 // What it does to clutch, gear and throttle during the coming step.
@@ -45,9 +46,11 @@ struct AutomaticOutput {
 };
 
 // Chooses the gear and works the clutch. It does not hunt: a higher gear is entered only where it can bear the load and
-// its own law would keep it at the pedal which that takes; and a gear that was too weak at some pedal is not tried
-// again until the pedal or the load has changed. At low speed the clutch closes with the engine's speed, so that the
-// car starts smoothly, does not creep and does not stall.
+// its own law would keep it at the pedal which that takes; where the present pedal keeps the speed in this gear but not
+// in the higher one, the gear stays; and a gear that was too weak at some pedal is not tried again until the pedal or
+// the load has changed. At low speed the clutch closes with the engine's speed, so that the car starts smoothly and
+// does not stall; below that it passes a torque by the pedal, so that the car can be manoeuvred. Without a pedal it
+// does not creep.
 class AutomaticGearbox {
  public:
   // Begins in a gear that suits wheels turning at this speed.

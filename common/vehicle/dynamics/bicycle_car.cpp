@@ -6,11 +6,11 @@
 
 #include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/parts_file.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kLongestSubstep_s = 0.001;
 constexpr double kMinLean = 0.3;         // cosine between strut and normal, for walls
 constexpr double kMaxTilt_rad = 0.45;    // of the body against the ground under it
 constexpr double kSurelyUpright = 0.95;  // a cosine over that of the most tilt
@@ -24,7 +24,9 @@ std::size_t PartnerOf(std::size_t wheel) { return wheel ^ 1u; }
 
 }  // namespace
 
-BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of), tyres(OnWheels(of.tyre)) {
+BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of) {
+  for (TyreSettings& tyre : settings.tyre) LimitDamping(settings.wheel, kLongestSubstep_s, tyre);
+  tyres = OnWheels(settings.tyre);
   const BodySettings& body = settings.body;
   p_BG_B = {0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m};
   const double weight = body.mass_kg * base::kGravity_mps2;

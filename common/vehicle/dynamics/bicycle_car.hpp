@@ -13,6 +13,9 @@
 
 namespace rodeira::dynamics {
 
+// Longer steps are divided.
+inline constexpr double kLongestSubstep_s = 0.001;
+
 // What all cars of one file share: settings, and what follows from them.
 struct BicycleChassis {
   explicit BicycleChassis(const BicycleSettings& of);

@@ -56,6 +56,8 @@ DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engi
   for (std::size_t i = 0; i < 2; ++i) {
     motion.wheel_radps[i] = after[static_cast<int>(i)];
     motion.friction_torque_Nm[i] = impulse[static_cast<int>(i)] / dt_s;
+    if (loads.loss_torque_Nm[i] > 0.0)
+      motion.loss_torque_Nm[i] = motion.friction_torque_Nm[i] * loads.loss_torque_Nm[i] / loads.friction_torque_Nm[i];
   }
   motion.clutch_torque_Nm = -impulse[kClutch] / dt_s;
   motion.drive_torque_Nm = 0.5 * loads.ratio * motion.clutch_torque_Nm;
@@ -92,6 +94,7 @@ void DrivelineMotion::Save(base::StateWriter& writer) const {
   writer.Put("locking_heat_W", locking_heat_W);
   writer.Put("wheel_radps", std::span<const double>(wheel_radps));
   writer.Put("friction_torque_Nm", std::span<const double>(friction_torque_Nm));
+  writer.Put("loss_torque_Nm", std::span<const double>(loss_torque_Nm));
 }
 
 void DrivelineMotion::Restore(base::StateReader& reader) {
@@ -106,6 +109,7 @@ void DrivelineMotion::Restore(base::StateReader& reader) {
   reader.Get("locking_heat_W", locking_heat_W);
   reader.Get("wheel_radps", std::span<double>(wheel_radps));
   reader.Get("friction_torque_Nm", std::span<double>(friction_torque_Nm));
+  reader.Get("loss_torque_Nm", std::span<double>(loss_torque_Nm));
 }
 
 }  // namespace rodeira::dynamics

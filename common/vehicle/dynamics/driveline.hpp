@@ -34,13 +34,15 @@ struct DrivelineLoads {
   std::array<double, 2> wheel_radps{};
   std::array<double, 2> road_torque_Nm{};  // of the tyres on the wheels, positive forward
   std::array<double, 2>
-      friction_torque_Nm{};  // brake, rolling resistance, losses: at most this much against the rotation
+      friction_torque_Nm{};                // brake, rolling resistance, losses: at most this much against the rotation
+  std::array<double, 2> loss_torque_Nm{};  // the gears' part of it
 };
 
 struct DrivelineMotion {
   double engine_radps = 0.0;
   std::array<double, 2> wheel_radps{};
   std::array<double, 2> friction_torque_Nm{};  // acting, either sign
+  std::array<double, 2> loss_torque_Nm{};      // the gears' part of it
   double drive_torque_Nm = 0.0;                // of a drive shaft in the mean of both: half of ratio × clutch torque
   double locking_torque_Nm = 0.0;              // left shaft - right shaft
   double locking_heat_W = 0.0;                 // of the differential's plates
@@ -53,6 +55,11 @@ struct DrivelineMotion {
   // Of each shaft on its wheel: left, right.
   std::array<double, 2> shaft_torque_Nm() const {
     return {drive_torque_Nm + 0.5 * locking_torque_Nm, drive_torque_Nm - 0.5 * locking_torque_Nm};
+  }
+
+  // The same less the gears' losses.
+  std::array<double, 2> wheel_torque_Nm() const {
+    return {shaft_torque_Nm()[0] + loss_torque_Nm[0], shaft_torque_Nm()[1] + loss_torque_Nm[1]};
   }
 
   void Save(base::StateWriter& writer) const;

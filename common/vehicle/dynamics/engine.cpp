@@ -97,7 +97,8 @@ void Engine::Prepare(const EngineSettings& engine, double throttle, bool starter
   indicated_Nm_ = 0.0;
   if (!running_ || limited_) return;
   const double available = FullLoadTorque(engine, speed_radps_) + drag_Nm_;
-  throttle_ = std::max(throttle, IdleThrottle(engine, speed_radps_, available));
+  const double idle = IdleThrottle(engine, speed_radps_, available);
+  throttle_ = idle + (1.0 - idle) * throttle;
   indicated_Nm_ = throttle_ * available;
 }
 

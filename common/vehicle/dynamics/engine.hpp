@@ -43,8 +43,9 @@ double DragTorque(const EngineSettings& engine, double speed_radps);
 
 // Combustion, idle control, limiter, starter, stall, fuel. The speed itself is advanced by the driveline.
 //   indicated torque = theta (full load + drag);  net torque = indicated - drag;
-// so an open throttle gives the curve and a closed one the drag (overrun). Fuel by Willans' line: burnt power =
-// indicated power / efficiency, that is zero in overrun, and at rest what idling takes.
+// with idle control's theta_i and the pedal p: theta = theta_i + (1 - theta_i) p, so that any pedal gives more than
+// idling takes. An open throttle gives the curve and a closed one the drag (overrun). Fuel by Willans' line: burnt
+// power = indicated power / efficiency, that is zero in overrun, and at rest what idling takes.
 class Engine {
  public:
   void Start(double speed_radps);  // running at this speed, nothing burnt yet

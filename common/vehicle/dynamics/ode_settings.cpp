@@ -56,6 +56,7 @@ OdeSettings ReadOde(const config::Map& root) {
   ode.clearance_m = map.Number("clearance_m");
   ode.body_friction = map.Number("body_friction");
   ode.longest_substep_s = map.Number("longest_substep_s");
+  for (TyreSettings& tyre : ode.car.tyre) LimitDamping(ode.car.wheel, ode.longest_substep_s, tyre);
   // Numbers that are wrong by themselves have been told of: what follows needs sound ones.
   if (!(ode.car.body.mass_kg > 0.0 && ode.wheel_mass_kg > 0.0 && ode.car.body.wheelbase_m > 0.0 &&
         ode.car.wheel.vertical_Npm > 0.0))

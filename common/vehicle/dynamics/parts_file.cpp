@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/core/config/declared.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/tyre_file.hpp"
@@ -243,6 +245,11 @@ TyreSettings ReadTyre(const Map& given) {
   }
   ReadAligning(coefficients, FormulaKeys(), tyre);
   return tyre;
+}
+
+void LimitDamping(const WheelSettings& wheel, double step_s, TyreSettings& tyre) {
+  const double most_Nspm = wheel.inertia_kgm2 / (wheel.rolling_radius_m * wheel.rolling_radius_m * step_s);
+  tyre.low_speed_damping_Nspm = std::min(tyre.low_speed_damping_Nspm, most_Nspm);
 }
 
 }  // namespace rodeira::dynamics

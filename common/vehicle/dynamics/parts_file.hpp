@@ -17,5 +17,8 @@ WheelSettings ReadWheel(const config::Map& map);
 Enveloping ReadEnveloping(const config::Map& map);
 BrakeSettings ReadBrakes(const config::Map& map);
 TyreSettings ReadTyre(const config::Map& map);
+// Damping at low speeds no larger than wheels so light can bear in steps of this length: at most I / (R² dt), half of
+// where the step of a wheel is no longer stable.
+void LimitDamping(const WheelSettings& wheel, double step_s, TyreSettings& tyre);
 
 }  // namespace rodeira::dynamics

@@ -27,6 +27,7 @@ void Powertrain::StartSteadily(const PowertrainSettings& settings, double wheel_
   const double ratio = TotalRatio(settings.gearbox, gear_);
   if (ratio * wheel_radps < settings.engine.idle_radps) return;
   motion_.drive_torque_Nm = ShaftTorque(settings.gearbox, at_wheel_Nm, wheel_radps < 0.0 ? -1.0 : 1.0);
+  motion_.loss_torque_Nm.fill(at_wheel_Nm - motion_.drive_torque_Nm);
   motion_.clutch_torque_Nm = 2.0 * motion_.drive_torque_Nm / ratio;
   clutch_ = 0.0;
   engine_.Hold(settings.engine, motion_.clutch_torque_Nm);
@@ -40,9 +41,10 @@ const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, cons
   if (controls.gearbox == GearboxMode::kAutomatic) {
     if (mode_ != GearboxMode::kAutomatic) automatic_.Adopt(gear_);
     const double load_Nm = 2.0 * motion_.drive_torque_Nm - input.inertia_torque_Nm;
-    const AutomaticOutput output = automatic_.Step(
-        settings.automatic, settings.gearbox, settings.engine,
-        {controls.gear, controls.throttle, engine_.speed_radps(), wheel_radps, input.speed_mps, load_Nm}, dt_s);
+    const AutomaticOutput output = automatic_.Step(settings.automatic, settings.gearbox, settings.engine,
+                                                   {controls.gear, controls.throttle, engine_.speed_radps(),
+                                                    wheel_radps, input.speed_mps, load_Nm, settings.clutch.capacity_Nm},
+                                                   dt_s);
     gear_ = output.gear;
     clutch_ = output.clutch;
     throttle = output.throttle;
@@ -62,8 +64,10 @@ const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, cons
   loads.wheel_inertia_kgm2 = input.wheel_inertia_kgm2;
   loads.wheel_radps = input.wheel_radps;
   loads.road_torque_Nm = input.road_torque_Nm;
-  const double loss_Nm = (1.0 - settings.gearbox.efficiency) * std::fabs(motion_.drive_torque_Nm);
-  for (std::size_t i = 0; i < 2; ++i) loads.friction_torque_Nm[i] = input.friction_torque_Nm[i] + loss_Nm;
+  for (std::size_t i = 0; i < 2; ++i) {
+    loads.loss_torque_Nm[i] = (1.0 - settings.gearbox.efficiency) * std::fabs(motion_.shaft_torque_Nm()[i]);
+    loads.friction_torque_Nm[i] = input.friction_torque_Nm[i] + loads.loss_torque_Nm[i];
+  }
   motion_ = StepDriveline(settings.engine, engine_, loads, dt_s);
   engine_.Finish(settings.engine, motion_.engine_radps, dt_s);
   return motion_;

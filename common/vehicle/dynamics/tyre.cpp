@@ -7,8 +7,11 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kPeakReach = 3.0;    // peaks lie at two to three times D / K
-constexpr double kSpeedReach = 20.0;  // how far past the peak the deflection may go, a low_speed of motion
+constexpr double kPeakReach = 3.0;  // peaks lie at two to three times D / K
+constexpr double kSpeedReach =
+    20.0;  // how far past D / K the deflection of a sliding tyre may go, a low_speed of motion
+constexpr double kSlidingReach = 0.9;   // of a tyre that slides to a stop, nearly D / K
+constexpr double kSticking_mps = 0.02;  // slower, a tyre that stands is pressed towards its peak
 constexpr double kFadeInAir_s = 0.01;
 constexpr double kTiny_N = 1.0;
 constexpr double kTinyTwist_rad = 1e-12;
@@ -19,9 +22,14 @@ double LowSpeedShare(const TyreSettings& tyre, double vx_mps) {
   return rest * rest * (3.0 - 2.0 * rest);
 }
 
-// The largest slip that the deflection may stand for: just past the peak at rest, no bound in practice at speed.
+// The largest slip that the deflection may stand for. At speed there is no bound in practice. A tyre that slides to a
+// stop keeps the deflection D / K that its stiffness holds at the peak, and no more to throw the car back with. One
+// that stands may be pressed just past its peak.
 double SlipBound(double peak_N, double stiffness_N, double motion_mps, double low_speed_mps) {
-  return kPeakReach * peak_N / std::max(stiffness_N, kTiny_N) * (1.0 + kSpeedReach * motion_mps / low_speed_mps);
+  const double sticks = std::max(0.0, 1.0 - motion_mps / kSticking_mps);
+  const double reach =
+      kSlidingReach + kSpeedReach * motion_mps / low_speed_mps + (kPeakReach - kSlidingReach) * sticks * sticks;
+  return reach * peak_N / std::max(stiffness_N, kTiny_N);
 }
 
 }  // namespace
