@@ -64,15 +64,22 @@ TEST(JointForces, OfALeverAreThoseOfStatics) {
 }
 
 // The multipliers of the loop through K3 at t = 0 (W. M. Lioen, J. J. B. de Swart, Test set for initial value problem
-// solvers, Andrews' squeezing mechanism). The spring pulls at D, beside the line from B to E.
+// solvers, Andrews' squeezing mechanism): the force on K3 at E. The spring pushes at D, beside the line from B to E,
+// and K3 does not begin to turn, so both have opposite moments about B: that is the sign.
 TEST(JointForces, OfAndrewsMechanismAreThoseOfTheTestSet) {
   std::ifstream file(std::filesystem::path(SourceDir()) / "configs/mechanisms/andrews.yaml");
   std::stringstream text;
   text << file.rdbuf();
   const Mechanism andrews = Parsed(text.str() + "  ex_N: joint K3 E.x\n  ey_N: joint K3 E.y\n");
-  EXPECT_NEAR(std::fabs(Value(andrews, "ex_N")), 98.5668703962410896, 1e-4);
-  EXPECT_NEAR(std::fabs(Value(andrews, "ey_N")), 6.12268834425566266, 1e-4);
-  EXPECT_LT(Value(andrews, "ex_N") * Value(andrews, "ey_N"), 0.0);
+  const Eigen::Vector2d at_E(Value(andrews, "ex_N"), Value(andrews, "ey_N"));
+  EXPECT_NEAR(at_E.x(), 98.5668703962410896, 1e-4);
+  EXPECT_NEAR(at_E.y(), -6.12268834425566266, 1e-4);
+  constexpr double kGamma = 0.455279819163070380;
+  const Eigen::Vector2d b(-0.03635, 0.03273), c(0.014, 0.072), across(std::sin(kGamma), -std::cos(kGamma)),
+      along(std::cos(kGamma), std::sin(kGamma));
+  const Eigen::Vector2d e = 0.035 * across, d = 0.018 * across + 0.02 * along, spring = c - b - d;
+  const Eigen::Vector2d pull = 4530.0 * (spring.norm() - 0.07785) * spring.normalized();
+  EXPECT_NEAR(e.x() * at_E.y() - e.y() * at_E.x(), -(d.x() * pull.y() - d.y() * pull.x()), 1e-6);
 }
 
 struct Reader {
