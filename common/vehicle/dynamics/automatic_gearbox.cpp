@@ -17,14 +17,14 @@ constexpr double kKeeps = 0.9;         // of the load: a gear that gives as much
 constexpr double kDeadPedal = 0.02;
 // Torque of the clutch below the bite, of the engine's full load there: by the pedal, at most, and none towards a
 // stall.
-constexpr double kCreepShare = 2.0, kMostCreep = 0.35;
+constexpr double kCreepShare = 2.0, kMaxCreep = 0.35;
 
 double CreepTorque(const AutomaticSettings& settings, const EngineSettings& engine, double throttle,
                    double engine_radps) {
   if (throttle <= kDeadPedal) return 0.0;
   const double low = 1.3 * engine.stall_radps;
   const double turns = std::clamp((engine_radps - low) / std::max(engine.idle_radps - low, 1.0), 0.0, 1.0);
-  return turns * std::min(kCreepShare * throttle, kMostCreep) * FullLoadTorque(engine, settings.bite_radps);
+  return turns * std::min(kCreepShare * throttle, kMaxCreep) * FullLoadTorque(engine, settings.bite_radps);
 }
 
 double Interpolate(double light, double full, double throttle) { return light + (full - light) * throttle; }

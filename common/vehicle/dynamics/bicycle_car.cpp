@@ -27,6 +27,7 @@ std::size_t PartnerOf(std::size_t wheel) { return wheel ^ 1u; }
 BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of) {
   for (TyreSettings& tyre : settings.tyre) LimitDamping(settings.wheel, kLongestSubstep_s, tyre);
   tyres = OnWheels(settings.tyre);
+  assist_car = AssistCarOf(settings);
   const BodySettings& body = settings.body;
   p_BG_B = {0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m};
   const double weight = body.mass_kg * base::kGravity_mps2;
@@ -93,7 +94,8 @@ std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chass
     const Eigen::Vector3d middle = 0.5 * (contacts[left].point_W + contacts[left + 1].point_W);
     const Eigen::Vector3d v = body.v_WG_W + w_WG_W.cross(middle - body.p_WG_W);
     for (const std::size_t i : {left, left + 1}) {
-      const double vx = v.dot(contacts[i].along_W);
+      const Eigen::Vector3d own = body.v_WG_W + w_WG_W.cross(contacts[i].point_W - body.p_WG_W);
+      const double vx = own.dot(contacts[i].along_W);
       motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m, v.dot(contacts[i].across_W),
                    0.0, w_WG_W.dot(wheels[i].normal_W) + (IsFront(i) ? steer_radps : 0.0)};
     }
@@ -138,33 +140,20 @@ void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls
 
 void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s,
                             BicycleFindings& findings) {
-  const double radius = chassis.settings.wheel.rolling_radius_m;
-  std::array<double, kWheels> road{};
-  std::array<double, kWheels> friction{};
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    road[i] = -radius * findings.contacts[i].forces.longitudinal_N;
-    findings.brake_Nm[i] = BrakeTorque(chassis.settings.brakes, i, controls.brake, controls.handbrake);
-    friction[i] = findings.brake_Nm[i] + chassis.settings.wheel.rolling_resistance * wheels[i].corner.load_N() * radius;
-  }
-  const std::size_t driven = chassis.settings.front_driven ? kFrontLeft : kRearLeft;
-  const std::size_t free = chassis.settings.front_driven ? kRearLeft : kFrontLeft;
-  PowertrainInput input;
-  input.wheel_inertia_kgm2 = chassis.settings.wheel.inertia_kgm2;
+  WheelDriveInput input;
   input.speed_mps = (body.q_WG.conjugate() * body.v_WG_W).x();
-  input.inertia_torque_Nm = chassis.settings.body.mass_kg * radius * forward_mps2;
-  for (std::size_t i = 0; i < 2; ++i) {
-    input.wheel_radps[i] = wheels[driven + i].spin_radps;
-    input.road_torque_Nm[i] = road[driven + i];
-    input.friction_torque_Nm[i] = friction[driven + i];
+  input.forward_mps2 = forward_mps2;
+  input.lateral_mps2 = lateral_mps2;
+  input.yaw_rate_radps = body.w_WG_G.z();
+  input.front_wheel_rad = chassis.SteerAngle(kFrontLeft, controls.steering_wheel_rad);
+  std::array<double, kWheels> spin_radps{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    input.load_N[i] = wheels[i].corner.load_N();
+    input.longitudinal_N[i] = findings.contacts[i].forces.longitudinal_N;
+    spin_radps[i] = wheels[i].spin_radps;
   }
-  const DrivelineMotion& motion = powertrain.Step(chassis.settings.powertrain, controls, input, dt_s);
-  for (std::size_t i = 0; i < 2; ++i) {
-    wheels[driven + i].spin_radps = motion.wheel_radps[i];
-    findings.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
-    Wheel& rolling = wheels[free + i];
-    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, chassis.settings.wheel.inertia_kgm2, road[free + i],
-                                       friction[free + i], dt_s);
-  }
+  findings.torques = dynamics::TurnWheels(chassis.drive(), controls, input, dt_s, powertrain, assists, spin_radps);
+  for (std::size_t i = 0; i < kWheels; ++i) wheels[i].spin_radps = spin_radps[i];
 }
 
 void BicycleCar::PushBody(const BicycleChassis& chassis, const Wrench& push, double dt_s, BicycleFindings& findings) {
@@ -179,20 +168,23 @@ void BicycleCar::PushBody(const BicycleChassis& chassis, const Wrench& push, dou
   for (std::size_t axle = 0; axle < 2; ++axle) {
     const BicycleContact& left = contacts[2 * axle];
     const BicycleContact& right = contacts[2 * axle + 1];
-    Eigen::Vector3d tangential = Eigen::Vector3d::Zero();
+    Eigen::Vector3d lateral = Eigen::Vector3d::Zero();
     for (std::size_t i = 2 * axle; i < 2 * axle + 2; ++i) {
       const Eigen::Vector3d normal = wheels[i].corner.load_N() * wheels[i].normal_W;
       force += normal;
       moment += (contacts[i].point_W - body.p_WG_W).cross(normal) + contacts[i].forces.aligning_Nm * wheels[i].normal_W;
-      tangential +=
-          contacts[i].forces.longitudinal_N * contacts[i].along_W + contacts[i].forces.lateral_N * contacts[i].across_W;
+      const Eigen::Vector3d along = contacts[i].forces.longitudinal_N * contacts[i].along_W;
+      force += along;
+      moment += (contacts[i].point_W - body.p_WG_W).cross(along);
+      lateral += contacts[i].forces.lateral_N * contacts[i].across_W;
     }
-    force += tangential;
-    moment += (0.5 * (left.point_W + right.point_W) - body.p_WG_W).cross(tangential);
+    force += lateral;
+    moment += (0.5 * (left.point_W + right.point_W) - body.p_WG_W).cross(lateral);
   }
   const Eigen::Vector3d before = body.v_WG_W;
   body.Push(force, moment, of.mass_kg, {of.roll_inertia_kgm2, of.pitch_inertia_kgm2, of.yaw_inertia_kgm2}, dt_s);
   forward_mps2 = (body.v_WG_W - before).dot(body.q_WG * Eigen::Vector3d::UnitX()) / dt_s;
+  lateral_mps2 = (body.v_WG_W - before).dot(body.q_WG * Eigen::Vector3d::UnitY()) / dt_s;
 }
 
 Eigen::Vector3d RoadNormal(const BicycleContacts& contacts) {
@@ -250,7 +242,9 @@ void BicycleCar::Save(base::StateWriter& writer) const {
   writer.Put("body", body);
   for (const Wheel& wheel : wheels) writer.Put("wheel", wheel);
   writer.Put("powertrain", powertrain);
+  writer.Put("assists", assists);
   writer.Put("forward_mps2", forward_mps2);
+  writer.Put("lateral_mps2", lateral_mps2);
   writer.Put("steer_rad", steer_rad);
 }
 
@@ -258,7 +252,9 @@ void BicycleCar::Restore(base::StateReader& reader) {
   reader.Get("body", body);
   for (Wheel& wheel : wheels) reader.Get("wheel", wheel);
   reader.Get("powertrain", powertrain);
+  reader.Get("assists", assists);
   reader.Get("forward_mps2", forward_mps2);
+  reader.Get("lateral_mps2", lateral_mps2);
   reader.Get("steer_rad", steer_rad);
 }
 

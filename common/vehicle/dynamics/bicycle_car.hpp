@@ -9,6 +9,7 @@
 #include "common/vehicle/dynamics/suspension.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/dynamics/wheel_drive.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
 namespace rodeira::dynamics {
@@ -26,6 +27,11 @@ struct BicycleChassis {
   std::array<double, kWheels> static_load_N{};
   std::array<Eigen::Vector3d, kWheels> p_GH_B;  // from there to the hubs at rest
 
+  assists::AssistCar assist_car;
+
+  WheelDriveSettings drive() const {
+    return {settings.wheel, settings.brakes, settings.powertrain, settings.assists, assist_car, settings.front_driven};
+  }
   double SteerAngle(std::size_t wheel, double steering_wheel_rad) const;
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
 };
@@ -49,8 +55,7 @@ using BicycleContacts = std::array<BicycleContact, kWheels>;
 // What was found in a substep, for publishers: nothing that later steps depend on.
 struct BicycleFindings {
   BicycleContacts contacts;
-  std::array<double, kWheels> brake_Nm{};
-  std::array<double, kWheels> drive_Nm{};
+  WheelTorques torques;
   double drag_N = 0.0;
 };
 
@@ -70,7 +75,9 @@ struct BicycleCar {
   RigidBody body;
   std::array<Wheel, kWheels> wheels;
   Powertrain powertrain;
+  assists::Assists assists;
   double forward_mps2 = 0.0;  // acceleration of the last substep along the car
+  double lateral_mps2 = 0.0;  // and across
   double steer_rad = 0.0;     // of the front wheels at the end of the last substep
 
   Eigen::Vector3d p_WB_W(const BicycleChassis& chassis) const { return body.p_WG_W - body.q_WG * chassis.p_BG_B; }
@@ -86,7 +93,8 @@ struct BicycleCar {
   BicyclePose PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const;
   CornerInput CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const;
   BicycleContact ContactOf(const BicyclePose& pose, std::size_t wheel) const;
-  // Both wheels of an axle share the motion of its middle. The front wheels are steered at this rate.
+  // Along, each wheel moves as its own contact does; across, both wheels of an axle as its middle. The front wheels are
+  // steered at this rate.
   std::array<TyreMotion, kWheels> MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts,
                                            double steer_radps = 0.0) const;
 

@@ -159,8 +159,9 @@ BicycleEquilibrium::Holding BicycleEquilibrium::HoldingForces(const BicycleConta
         model_.car_.wheels[i].corner.load_N() / load[i / 2] * (i < 2 ? by_load : 1.0 - by_load) * lengthwise.dot(along);
   const bool cruises = IsCruise(initial_);
   if (cruises) along_N = Cruise(normal).longitudinal_N;
-  const double lengthwise_yaws =
-      (along_N[0] + along_N[1]) * yaws(0, along) + (along_N[2] + along_N[3]) * yaws(1, along);
+  double lengthwise_yaws = 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i)
+    lengthwise_yaws += along_N[i] * (contacts[i].point_W - model_.car_.body.p_WG_W).cross(along).dot(normal);
   const double apart = yaws(0, across) - yaws(1, across);
   // The aligning moments follow the side forces, which make up for them: what is missing falls to some hundredths each
   // turn.
@@ -191,6 +192,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   const BicycleContacts contacts = FindContacts();
   const Eigen::Vector3d normal = RoadNormal(contacts);
   const Holding holding = HoldingForces(contacts, normal);
+  const Eigen::Vector3d along = Along(normal);
   Eigen::Vector3d force = HoldingForce(normal) + Drag(normal);
   force.z() -= model_.chassis_.settings.body.mass_kg * base::kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -199,7 +201,9 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
     const Eigen::Vector3d middle = 0.5 * (contacts[i & 2u].point_W + contacts[(i & 2u) + 1].point_W);
     force += bearing;
     moment += (contacts[i].point_W - model_.car_.body.p_WG_W).cross(bearing);
-    moment += (middle - model_.car_.body.p_WG_W).cross(holding.forces[i]) +
+    const Eigen::Vector3d lengthwise = holding.forces[i].dot(along) * along;
+    moment += (contacts[i].point_W - model_.car_.body.p_WG_W).cross(lengthwise) +
+              (middle - model_.car_.body.p_WG_W).cross(holding.forces[i] - lengthwise) +
               holding.aligning_Nm[i] * model_.car_.wheels[i].normal_W;
   }
   const Eigen::Vector3d moment_B = model_.car_.body.q_WG.conjugate() * moment;

@@ -9,7 +9,8 @@
 
 namespace rodeira::dynamics {
 
-// The front tyres turn their carriers by aligning moment and side force × mechanical trail.
+// The front tyres turn their carriers by aligning moment, side force × mechanical trail and longitudinal force × scrub
+// radius.
 double BicycleModel::SteeringTorque() const {
   const SteeringSettings& steering = settings().steering;
   double torque = 0.0;
@@ -17,7 +18,9 @@ double BicycleModel::SteeringTorque() const {
     const TyreForces& forces = findings_.contacts[i].forces;
     torque += forces.aligning_Nm - steering.mechanical_trail_m * forces.lateral_N;
   }
-  return torque / steering.ratio;
+  const double apart_N =
+      findings_.contacts[kFrontRight].forces.longitudinal_N - findings_.contacts[kFrontLeft].forces.longitudinal_N;
+  return (torque + steering.scrub_radius_m * apart_N) / steering.ratio;
 }
 
 void BicycleModel::Publish(const Controls& controls, double dt_s) {
@@ -45,8 +48,8 @@ void BicycleModel::Publish(const Controls& controls, double dt_s) {
     w.load_N = wheel.corner.load_N();
     w.slip = wheel.tyre.slip();
     w.slip_angle_tan = wheel.tyre.slip_angle_tan();
-    w.brake_torque_Nm = findings_.brake_Nm[i];
-    w.drive_torque_Nm = findings_.drive_Nm[i];
+    w.brake_torque_Nm = findings_.torques.brake_Nm[i];
+    w.drive_torque_Nm = findings_.torques.drive_Nm[i];
     w.suspension_N = wheel.corner.suspension_N();
     w.damper_N = wheel.corner.damper_N();
     w.travel_m = wheel.corner.travel_m();

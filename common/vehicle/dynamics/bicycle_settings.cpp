@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/bicycle_settings.hpp"
 
+#include "common/core/base/constants.hpp"
 #include "common/core/config/declared.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 #include "common/vehicle/dynamics/vehicle_schema.hpp"
@@ -36,6 +37,7 @@ SteeringSettings ReadBicycleSteering(const Map& given) {
   steering.ratio = map.Number("ratio");
   steering.limit_rad = map.Number("wheel_limit_rad");
   steering.mechanical_trail_m = map.Number("mechanical_trail_m");
+  steering.scrub_radius_m = map.Number("scrub_radius_m");
   steering.pneumatic_trail_m = map.Number("pneumatic_trail_m");
   constexpr double kMaxLock_rad = 1.2;
   if (steering.limit_rad / steering.ratio > kMaxLock_rad) {
@@ -82,10 +84,28 @@ BicycleSettings ReadBicycle(const Map& given) {
     if (each.aligning && each.aligning->unloaded_radius == 0.0) each.aligning->unloaded_radius = bicycle.wheel.radius_m;
   }
   bicycle.brakes = ReadBrakes(root.Child("brakes").map());
+  bicycle.assists = ReadAssists(root.MapWith("assists"), bicycle.brakes);
   bicycle.powertrain = ReadPowertrain(given);
   bicycle.front_driven = root.Word("driven_axle") != "rear";
   bicycle.dimensions = ReadBicycleDimensions(root.MapWith("dimensions"), bicycle);
   return bicycle;
+}
+
+assists::AssistCar AssistCarOf(const BicycleSettings& car) {
+  assists::AssistCar known;
+  known.rolling_radius_m = car.wheel.rolling_radius_m;
+  known.wheel_inertia_kgm2 = car.wheel.inertia_kgm2;
+  known.wheelbase_m = car.body.wheelbase_m;
+  known.track_m = {car.dimensions.track_front_m, car.dimensions.track_rear_m};
+  known.mass_kg = car.body.mass_kg;
+  known.cg_height_m = car.body.cg_height_m;
+  const double rear_share = car.body.cg_to_front_axle_m / car.body.wheelbase_m;
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    known.static_load_N[i] =
+        0.5 * car.body.mass_kg * base::kGravity_mps2 * (AxleOf(i) == 0 ? 1.0 - rear_share : rear_share);
+    known.driven[i] = (AxleOf(i) == 0) == car.front_driven;
+  }
+  return known;
 }
 
 }  // namespace rodeira::dynamics

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "common/vehicle/assists/assists.hpp"
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/suspension.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
@@ -27,6 +28,7 @@ struct SteeringSettings {
   double ratio = 16.0;
   double limit_rad = 9.2;            // of the steering wheel, each side
   double mechanical_trail_m = 0.02;  // for the torque given back to the driver only
+  double scrub_radius_m = 0.0;       // of the kingpin inside the contact: lets the rim feel longitudinal forces
   double pneumatic_trail_m = 0.025;  // of tyres without coefficients of their aligning moment
 };
 
@@ -38,11 +40,15 @@ struct BicycleSettings {
   std::array<TyreSettings, 2> tyre;              // front, rear
   WheelSettings wheel;
   BrakeSettings brakes;
+  assists::AssistSettings assists;
   PowertrainSettings powertrain;
   bool front_driven = true;
   VehicleDimensions dimensions;
 };
 
 BicycleSettings ReadBicycle(const config::Map& root);
+
+// The car as its controllers know it.
+assists::AssistCar AssistCarOf(const BicycleSettings& car);
 
 }  // namespace rodeira::dynamics

@@ -147,8 +147,7 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
     wheels_[i].load->SetStep(cruise.forces[i], 0.0, 0.0);
     wheels_[i].load->Anchor(Hub_W(i), kAnchor_Npm, false);
   }
-  chassis_load_->SetDrive(
-      2.0 * ShaftTorque(settings_.powertrain.gearbox, cruise.push.at_wheel_Nm, std::copysign(1.0, initial.speed_mps)));
+  chassis_load_->SetDrive(2.0 * cruise.push.at_wheel_Nm);
   chassis_load_->SetHeadway(cruise.v_W);
   return held_N;
 }
@@ -271,11 +270,13 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
   }
   hands_rad_ = 0.0;
   forward_mps2_ = 0.0;
+  lateral_mps2_ = 0.0;
+  assists_ = {};
   if (cruises)
     powertrain_.StartSteadily(settings_.powertrain, turning_radps, cruise.push.at_wheel_Nm);
   else
     powertrain_.Start(settings_.powertrain, rests ? 0.0 : turning_radps);
-  for (std::size_t i = 0; i < 2; ++i) torques_.drive_Nm[driven + i] = powertrain_.motion().drive_torque_Nm;
+  for (std::size_t i = 0; i < 2; ++i) torques_.drive_Nm[driven + i] = powertrain_.motion().wheel_torque_Nm()[i];
   (void)system_->FindAccelerations();
 }
 

@@ -59,7 +59,26 @@ base::Status MultibodyModel::Build() {
   X_CB_ = X_WC.inverse();
   body_load_->SetBody(X_CB_, settings_.dimensions);
   for (std::size_t i = 0; i < kWheels; ++i) hub_rest_B_[i] = Hub_W(i);
+  FillAssistCar();
   return Initialise({}, level);
+}
+
+// As the car stands.
+void MultibodyModel::FillAssistCar() {
+  assist_car_.rolling_radius_m = settings_.wheel.rolling_radius_m;
+  assist_car_.wheel_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+  assist_car_.wheelbase_m = settings_.dimensions.wheelbase_m;
+  assist_car_.track_m = {settings_.dimensions.track_front_m, settings_.dimensions.track_rear_m};
+  assist_car_.mass_kg = settings_.mass_kg;
+  double height_kgm = 0.0;
+  for (const auto& body : system_->drawing().bodies)
+    height_kgm += body.mass_kg * multibody::Evaluate(body.centre, system_->q().data()).z();
+  assist_car_.cg_height_m = height_kgm / settings_.mass_kg;
+  const Contacts contacts = FindContacts(system_->motion());
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    assist_car_.static_load_N[i] = contacts[i].load_N;
+    assist_car_.driven[i] = (AxleOf(i) == 0) == settings_.front_driven;
+  }
 }
 
 Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const {
@@ -144,42 +163,34 @@ MultibodyModel::Rolling MultibodyModel::FindRolling(const multibody::Motion& mot
   return rolling;
 }
 
-MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls,
-                                                        const std::array<double, kWheels>& loads_N,
-                                                        const std::array<TyreForces, kWheels>& forces, double dt_s) {
-  WheelTorques torques;
-  const double radius = settings_.wheel.rolling_radius_m;
-  std::array<double, kWheels> road{};
-  std::array<double, kWheels> friction{};
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    road[i] = -radius * forces[i].longitudinal_N;
-    torques.brake_Nm[i] = BrakeTorque(settings_.brakes, i, controls.brake, controls.handbrake);
-    friction[i] = torques.brake_Nm[i] + settings_.wheel.rolling_resistance * loads_N[i] * radius;
-  }
-  const std::size_t driven = settings_.front_driven ? kFrontLeft : kRearLeft;
-  const std::size_t free = settings_.front_driven ? kRearLeft : kFrontLeft;
-  PowertrainInput input;
-  input.wheel_inertia_kgm2 = settings_.wheel.inertia_kgm2;
+WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
+                                        const std::array<TyreForces, kWheels>& forces, double dt_s) {
+  WheelDriveInput input;
+  input.load_N = loads_N;
   input.speed_mps = multibody::Evaluate(origin_, system_->qd().data()).dot(Forward_W());
-  input.inertia_torque_Nm = settings_.mass_kg * radius * forward_mps2_;
-  for (std::size_t i = 0; i < 2; ++i) {
-    input.wheel_radps[i] = wheels_[driven + i].spin_radps;
-    input.road_torque_Nm[i] = road[driven + i];
-    input.friction_torque_Nm[i] = friction[driven + i];
+  input.forward_mps2 = forward_mps2_;
+  std::array<double, kWheels> spin_radps{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    input.longitudinal_N[i] = forces[i].longitudinal_N;
+    spin_radps[i] = wheels_[i].spin_radps;
   }
-  const DrivelineMotion& motion = powertrain_.Step(settings_.powertrain, controls, input, dt_s);
-  for (std::size_t i = 0; i < 2; ++i) {
-    wheels_[driven + i].spin_radps = motion.wheel_radps[i];
-    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
-    torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
-    Wheel& rolling = wheels_[free + i];
-    torques.friction_Nm[free + i] = friction[free + i];
-    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i],
-                                       torques.friction_Nm[free + i], dt_s);
+  if (settings_.assists.any()) {
+    const multibody::Frame& frame = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame;
+    const Eigen::Vector3d up = multibody::Evaluate(frame.axes[2], system_->q().data());
+    input.lateral_mps2 = lateral_mps2_;
+    input.yaw_rate_radps = Turning_W(frame, system_->motion()).dot(up);
+    input.front_wheel_rad = hands_rad_ / settings_.steering.ratio;
   }
-  // The brake's share of the friction that acted: the rest is rolling resistance and gears.
-  for (std::size_t i = 0; i < kWheels; ++i)
-    torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
+  const WheelDriveSettings drive{settings_.wheel,   settings_.brakes, settings_.powertrain,
+                                 settings_.assists, assist_car_,      settings_.front_driven};
+  WheelTorques torques = dynamics::TurnWheels(drive, controls, input, dt_s, powertrain_, assists_, spin_radps);
+  // The brake's share of the friction that acted: the rest is rolling resistance.
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const double rolling_Nm = settings_.wheel.rolling_resistance * loads_N[i] * settings_.wheel.rolling_radius_m;
+    const double most_Nm = torques.brake_Nm[i] + rolling_Nm;
+    torques.friction_Nm[i] *= most_Nm > 0.0 ? torques.brake_Nm[i] / most_Nm : 0.0;
+    wheels_[i].spin_radps = spin_radps[i];
+  }
   return torques;
 }
 
@@ -216,7 +227,12 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   hands_rad_ = hands;
   const Eigen::Vector3d before_W = multibody::Evaluate(origin_, system_->qd().data());
   Advance(dt_s, 0);
-  forward_mps2_ = (multibody::Evaluate(origin_, system_->qd().data()) - before_W).dot(Forward_W()) / dt_s;
+  const Eigen::Vector3d gained_W = multibody::Evaluate(origin_, system_->qd().data()) - before_W;
+  forward_mps2_ = gained_W.dot(Forward_W()) / dt_s;
+  lateral_mps2_ =
+      gained_W.dot(multibody::Evaluate(
+          system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.axes[1], system_->q().data())) /
+      dt_s;
   const Contacts after = FindContacts(system_->motion());
   const Rolling ended = FindRolling(system_->motion(), after);
   for (std::size_t i = 0; i < kWheels; ++i) {

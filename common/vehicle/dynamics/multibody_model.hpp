@@ -9,6 +9,7 @@
 #include "common/vehicle/dynamics/multibody_body_load.hpp"
 #include "common/vehicle/dynamics/multibody_loads.hpp"
 #include "common/vehicle/dynamics/multibody_settings.hpp"
+#include "common/vehicle/dynamics/wheel_drive.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 #include "common/vehicle/multibody/output.hpp"
 #include "common/vehicle/multibody/system.hpp"
@@ -59,17 +60,13 @@ class MultibodyModel final : public VehicleModel {
     void Save(base::StateWriter& writer) const;
     void Restore(base::StateReader& reader);
   };
-  struct WheelTorques {
-    std::array<double, kWheels> brake_Nm{};
-    std::array<double, kWheels> drive_Nm{};
-    std::array<double, kWheels> friction_Nm{};  // acting on the wheel
-  };
   using Contacts = std::array<WheelLoad::Contact, kWheels>;
 
   Eigen::Vector3d Hub_W(std::size_t wheel) const;
   Eigen::Vector3d Forward_W() const;
   Eigen::Vector3d Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const;  // angular velocity
   void QueryGround(ground::Ground& ground);
+  void FillAssistCar();
   void GiveGround(std::size_t wheel);
   // One substep.
   void Substep(const Controls& controls, double dt_s);
@@ -96,6 +93,7 @@ class MultibodyModel final : public VehicleModel {
 
   MultibodySettings settings_;
   std::array<TyreSettings, kWheels> tyres_;
+  assists::AssistCar assist_car_;
   std::unique_ptr<multibody::System> system_;
   std::shared_ptr<ChassisLoad> chassis_load_;
   std::shared_ptr<BodyLoad> body_load_;
@@ -108,7 +106,9 @@ class MultibodyModel final : public VehicleModel {
 
   std::array<Wheel, kWheels> wheels_;
   Powertrain powertrain_;
+  assists::Assists assists_;
   double forward_mps2_ = 0.0;
+  double lateral_mps2_ = 0.0;
   double hands_rad_ = 0.0;  // steering wheel at the end of the last substep
   std::array<TyreForces, kWheels> forces_;
   WheelTorques torques_;

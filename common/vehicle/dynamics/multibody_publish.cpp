@@ -100,7 +100,9 @@ void MultibodyModel::Save(base::StateWriter& writer) const {
   writer.Put("mechanism", *system_);
   for (const Wheel& wheel : wheels_) writer.Put("wheel", wheel);
   writer.Put("powertrain", powertrain_);
+  writer.Put("assists", assists_);
   writer.Put("forward_mps2", forward_mps2_);
+  writer.Put("lateral_mps2", lateral_mps2_);
   writer.Put("hands_rad", hands_rad_);
   writer.Put("published", state_);
 }
@@ -109,7 +111,9 @@ void MultibodyModel::Restore(base::StateReader& reader) {
   reader.Get("mechanism", *system_);
   for (Wheel& wheel : wheels_) reader.Get("wheel", wheel);
   reader.Get("powertrain", powertrain_);
+  reader.Get("assists", assists_);
   reader.Get("forward_mps2", forward_mps2_);
+  reader.Get("lateral_mps2", lateral_mps2_);
   reader.Get("hands_rad", hands_rad_);
   reader.Get("published", state_);
 }

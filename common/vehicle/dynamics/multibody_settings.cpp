@@ -108,6 +108,7 @@ MultibodySettings ReadMultibody(const Map& root) {
     if (each.aligning && each.aligning->unloaded_radius == 0.0) each.aligning->unloaded_radius = car.wheel.radius_m;
   car.tyre_damping_Nspm = tyre.Number("vertical_damping_Nspm", {0.0, 1e5}, 0.0);
   car.brakes = ReadBrakes(root.Child("brakes"));
+  car.assists = ReadAssists(root, car.brakes);
   car.powertrain = ReadPowertrain(root);
   car.front_driven = root.Choice("driven_axle", {"front", "rear"}) != "rear";
   car.mechanism = reader.drawing();

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "common/vehicle/assists/assists.hpp"
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
@@ -38,6 +39,7 @@ struct MultibodySettings {
   WheelSettings wheel;
   double tyre_damping_Nspm = 0.0;  // vertical
   BrakeSettings brakes;
+  assists::AssistSettings assists;
   PowertrainSettings powertrain;
   bool front_driven = false;
   double drag_area_m2 = 0.5;

@@ -11,6 +11,7 @@
 namespace rodeira::dynamics {
 base::Status OdeModel::Build() {
   measures_ = ChassisOf(settings_);
+  assist_car_ = AssistCarOf(settings_.car);
   car_ = std::make_unique<OdeCar>(settings_);
   ground::PlaneGround level;
   return Initialise({}, level);
@@ -126,6 +127,7 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
   car_->Step(dt_s);
   now_.bodies = car_->bodies();
   now_.forward_mps2 = (chassis().v_WG_W - before).dot(chassis().q_WG * Eigen::Vector3d::UnitX()) / dt_s;
+  now_.lateral_mps2 = (chassis().v_WG_W - before).dot(chassis().q_WG * Eigen::Vector3d::UnitY()) / dt_s;
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = now_.wheels[i];
     const Contact after = ContactOf(i);
@@ -134,36 +136,24 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
   }
 }
 
-OdeModel::WheelTorques OdeModel::TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s) {
+WheelTorques OdeModel::TurnWheels(const Controls& controls, const Contacts& contacts, double dt_s) {
   const BicycleSettings& car = settings_.car;
-  WheelTorques torques;
-  const double radius = car.wheel.rolling_radius_m;
-  std::array<double, kWheels> road{};
-  std::array<double, kWheels> friction{};
-  for (std::size_t i = 0; i < kWheels; ++i) {
-    road[i] = -radius * contacts[i].forces.longitudinal_N;
-    torques.brake_Nm[i] = BrakeTorque(car.brakes, i, controls.brake, controls.handbrake);
-    friction[i] = torques.brake_Nm[i] + car.wheel.rolling_resistance * contacts[i].load_N * radius;
-  }
-  const std::size_t driven = car.front_driven ? kFrontLeft : kRearLeft;
-  const std::size_t free = car.front_driven ? kRearLeft : kFrontLeft;
-  PowertrainInput input;
-  input.wheel_inertia_kgm2 = car.wheel.inertia_kgm2;
+  WheelDriveInput input;
   input.speed_mps = (chassis().q_WG.conjugate() * chassis().v_WG_W).x();
-  input.inertia_torque_Nm = car.body.mass_kg * radius * now_.forward_mps2;
-  for (std::size_t i = 0; i < 2; ++i) {
-    input.wheel_radps[i] = now_.wheels[driven + i].spin_radps;
-    input.road_torque_Nm[i] = road[driven + i];
-    input.friction_torque_Nm[i] = friction[driven + i];
+  input.forward_mps2 = now_.forward_mps2;
+  input.lateral_mps2 = now_.lateral_mps2;
+  input.yaw_rate_radps = chassis().w_WG_G.z();
+  input.front_wheel_rad = SteerAngle(kFrontLeft, controls.steering_wheel_rad);
+  std::array<double, kWheels> spin_radps{};
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    input.load_N[i] = contacts[i].load_N;
+    input.longitudinal_N[i] = contacts[i].forces.longitudinal_N;
+    spin_radps[i] = now_.wheels[i].spin_radps;
   }
-  const DrivelineMotion& motion = now_.powertrain.Step(car.powertrain, controls, input, dt_s);
-  for (std::size_t i = 0; i < 2; ++i) {
-    now_.wheels[driven + i].spin_radps = motion.wheel_radps[i];
-    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
-    Wheel& rolling = now_.wheels[free + i];
-    rolling.spin_radps =
-        StepFreeWheel(rolling.spin_radps, car.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
-  }
+  const WheelDriveSettings drive{car.wheel, car.brakes, car.powertrain, car.assists, assist_car_, car.front_driven};
+  const WheelTorques torques =
+      dynamics::TurnWheels(drive, controls, input, dt_s, now_.powertrain, now_.assists, spin_radps);
+  for (std::size_t i = 0; i < kWheels; ++i) now_.wheels[i].spin_radps = spin_radps[i];
   return torques;
 }
 

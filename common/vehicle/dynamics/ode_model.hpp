@@ -10,6 +10,7 @@
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/dynamics/wheel_drive.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
 
 namespace rodeira::dynamics {
@@ -57,11 +58,9 @@ class OdeModel final : public VehicleModel {
     OdeCar::Bodies bodies;
     std::array<Wheel, kWheels> wheels;
     Powertrain powertrain;
+    assists::Assists assists;
     double forward_mps2 = 0.0;  // acceleration of the last substep along the car
-  };
-  struct WheelTorques {
-    std::array<double, kWheels> brake_Nm{};
-    std::array<double, kWheels> drive_Nm{};
+    double lateral_mps2 = 0.0;  // and across
   };
 
   const RigidBody& chassis() const { return now_.bodies[OdeCar::kChassis]; }
@@ -81,6 +80,7 @@ class OdeModel final : public VehicleModel {
   OdeSettings settings_;
   std::array<TyreSettings, kWheels> tyres_;
   OdeChassis measures_;
+  assists::AssistCar assist_car_;
   std::unique_ptr<OdeCar> car_;
   Motion now_;
   Contacts contacts_;  // of the last substep

@@ -8,13 +8,15 @@
 
 namespace rodeira::dynamics {
 
-// The front tyres turn their carriers by aligning moment and side force × mechanical trail.
+// The front tyres turn their carriers by aligning moment, side force × mechanical trail and longitudinal force × scrub
+// radius.
 double OdeModel::SteeringTorque() const {
   const SteeringSettings& steering = settings_.car.steering;
   double torque = 0.0;
   for (const std::size_t i : {kFrontLeft, kFrontRight})
     torque += contacts_[i].forces.aligning_Nm - steering.mechanical_trail_m * contacts_[i].forces.lateral_N;
-  return torque / steering.ratio;
+  const double apart_N = contacts_[kFrontRight].forces.longitudinal_N - contacts_[kFrontLeft].forces.longitudinal_N;
+  return (torque + steering.scrub_radius_m * apart_N) / steering.ratio;
 }
 
 void OdeModel::Publish(const Controls& controls, double dt_s) {
@@ -84,7 +86,9 @@ void OdeModel::Save(base::StateWriter& writer) const {
   for (const RigidBody& body : now_.bodies) writer.Put("body", body);
   for (const Wheel& wheel : now_.wheels) writer.Put("wheel", wheel);
   writer.Put("powertrain", now_.powertrain);
+  writer.Put("assists", now_.assists);
   writer.Put("forward_mps2", now_.forward_mps2);
+  writer.Put("lateral_mps2", now_.lateral_mps2);
   writer.Put("published", state_);
 }
 
@@ -92,7 +96,9 @@ void OdeModel::Restore(base::StateReader& reader) {
   for (RigidBody& body : now_.bodies) reader.Get("body", body);
   for (Wheel& wheel : now_.wheels) reader.Get("wheel", wheel);
   reader.Get("powertrain", now_.powertrain);
+  reader.Get("assists", now_.assists);
   reader.Get("forward_mps2", now_.forward_mps2);
+  reader.Get("lateral_mps2", now_.lateral_mps2);
   reader.Get("published", state_);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/core/config/declared.hpp"
 #include "common/core/geometry/angle.hpp"
@@ -191,13 +192,28 @@ BrakeSettings ReadBrakes(const Map& given) {
   return brakes;
 }
 
+assists::AssistSettings ReadAssists(const Map& root, const BrakeSettings& brakes) {
+  const config::DeclaredMap map(root.OptionalChild("assists"), AssistKeys());
+  assists::AssistSettings assists;
+  assists.abs = map.Flag("abs");
+  assists.tcs = map.Flag("tcs");
+  assists.esc = map.Flag("esc");
+  for (const auto& [key, works] : {std::pair{"abs", assists.abs}, std::pair{"esc", assists.esc}}) {
+    if (works && !(brakes.front_Nm > 0.0 && brakes.rear_Nm > 0.0))
+      map.map().Problem(
+          key, "config.conflicting_keys",
+          fmt::format("'assists.{}' is true; 'brakes.front_Nm' and 'brakes.rear_Nm' above 0 were expected", key));
+  }
+  return assists;
+}
+
 TyreSettings ReadTyre(const Map& given) {
   const config::DeclaredMap map(given, TyreKeys());
   TyreSettings tyre;
   tyre.relaxation_longitudinal_m = map.Number("relaxation_longitudinal_m");
   tyre.relaxation_lateral_m = map.Number("relaxation_lateral_m");
   tyre.low_speed_mps = map.Number("low_speed_mps");
-  tyre.pneumatic_trail_m = map.Number("pneumatic_trail_m");
+  tyre.pneumatic_trail_m = map.Number("pneumatic_trail_m", tyre.pneumatic_trail_m);
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm");
   if (map.map().Has("slip_curve")) {
     for (const char* other : {"tir", "magic_formula"}) {

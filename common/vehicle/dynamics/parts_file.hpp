@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/core/config/config.hpp"
+#include "common/vehicle/assists/assists.hpp"
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/suspension.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
@@ -16,6 +17,8 @@ SuspensionSettings ReadSuspension(const config::Map& map);
 WheelSettings ReadWheel(const config::Map& map);
 Enveloping ReadEnveloping(const config::Map& map);
 BrakeSettings ReadBrakes(const config::Map& map);
+// `assists`: wrong where the brakes that they work have no torque.
+assists::AssistSettings ReadAssists(const config::Map& root, const BrakeSettings& brakes);
 TyreSettings ReadTyre(const config::Map& map);
 // Damping at low speeds no larger than wheels so light can bear in steps of this length: at most I / (R² dt), half of
 // where the step of a wheel is no longer stable.

@@ -95,6 +95,8 @@ const std::vector<Key>& SteeringKeys() {
       WithSample("9", RequiredNumberKey("wheel_limit_rad", {0.1, 50.0}, "Lock of the steering wheel, each side.")),
       NumberKey("mechanical_trail_m", {0.0, 0.2}, steering.mechanical_trail_m,
                 "Mechanical trail, for the steering torque."),
+      NumberKey("scrub_radius_m", {-0.1, 0.1}, steering.scrub_radius_m,
+                "From the steering axis on the ground to the contact, outwards."),
       NumberKey("pneumatic_trail_m", {0.0, 0.2}, steering.pneumatic_trail_m,
                 "Pneumatic trail, for the steering torque.")};
   return keys;
@@ -139,6 +141,13 @@ const std::vector<Key>& BrakeKeys() {
       RequiredNumberKey("front_Nm", config::Range::NotNegative(), "Torque of a front wheel with the pedal pressed."),
       RequiredNumberKey("rear_Nm", config::Range::NotNegative(), "Torque of a rear wheel with the pedal pressed."),
       RequiredNumberKey("handbrake_Nm", config::Range::NotNegative(), "Torque of a rear wheel with the handbrake.")};
+  return keys;
+}
+
+const std::vector<Key>& AssistKeys() {
+  static const std::vector<Key> keys{config::FlagKey("abs", false, "Anti-lock brakes."),
+                                     config::FlagKey("tcs", false, "Traction control."),
+                                     config::FlagKey("esc", false, "Stability control.")};
   return keys;
 }
 
@@ -233,8 +242,8 @@ const std::vector<Key>& TyreKeys() {
       RequiredNumberKey("relaxation_longitudinal_m", {0.05, 5.0}, "Relaxation length along the wheel."),
       RequiredNumberKey("relaxation_lateral_m", {0.05, 5.0}, "Relaxation length across the wheel."),
       NumberKey("low_speed_mps", {0.1, 20.0}, tyre.low_speed_mps, "Below this speed a damper fades in."),
-      WithDefaultNote("that of `steering`", NumberKey("pneumatic_trail_m", {0.0, 0.2}, tyre.pneumatic_trail_m,
-                                                      "Trail of a tyre without an aligning moment.")),
+      config::ComputedNumberKey("pneumatic_trail_m", {0.0, 0.2}, "that of `steering`",
+                                "Trail of a tyre without an aligning moment."),
       NumberKey("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm, "Damping at rest."),
       config::ComputedTextKey("tir", "none", "", "Tyre property file."),
       WithSample("{}", config::Summarised("as in tyre files",

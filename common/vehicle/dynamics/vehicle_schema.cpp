@@ -37,6 +37,7 @@ config::Schema MakeVehicleSchema() {
                            Required(config::Summarised("as `front`", MappingKey("rear", TyreKeys(), "Rear tyres.")))},
                           "Tyres.")),
            Required(MappingKey("brakes", BrakeKeys(), "Brakes.")),
+           MappingKey("assists", AssistKeys(), "What intervenes in brakes and engine."),
            Required(MappingKey("engine", EngineKeys(), "Engine.")),
            Required(MappingKey("clutch", ClutchKeys(), "Clutch.")),
            Required(MappingKey("gearbox", GearboxKeys(), "Gearbox.")),

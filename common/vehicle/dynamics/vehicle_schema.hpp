@@ -18,6 +18,7 @@ const std::vector<config::Key>& DimensionKeys();
 const std::vector<config::Key>& SuspensionKeys();
 const std::vector<config::Key>& WheelKeys();
 const std::vector<config::Key>& BrakeKeys();
+const std::vector<config::Key>& AssistKeys();
 const std::vector<config::Key>& EngineKeys();
 const std::vector<config::Key>& ClutchKeys();
 const std::vector<config::Key>& GearboxKeys();

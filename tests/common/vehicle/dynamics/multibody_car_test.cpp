@@ -104,9 +104,9 @@ TEST(Prototype, ForcesInItsJointsAreOutputs) {
   EXPECT_EQ(wrong.error().exit_status(), 2);
 }
 
-// The tie rod has joints at both ends. What it passes on across itself is its own 0.8 kg alone: of a uniform rod whose
-// ends are accelerated by a and b, the end at b takes m (a/6 + b/3 - g/2). Found to 1 N of the some thousands along it.
-// The brake's torque and the tyre's moment on the carrier are no forces of its joints.
+// The tie rod has joints at both ends. What it passes on across itself is its own 0.8 kg alone: of a uniform rod with
+// ends accelerated by a and b, the end at b takes m (a/6 + b/3 - g/2). Found to 1 N of the some thousands along it. The
+// brake's torque and the tyre's moment on the carrier are no forces of its joints.
 TEST(Prototype, ATieRodBearsOnlyItselfAcrossWhileTheCarBrakes) {
   std::string outputs;
   for (const char c : {'x', 'y', 'z'}) outputs += fmt::format("    tie_{0}_N: joint fl_carrier fl_tie_outer.{0}\n", c);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pedals at their ends and near them: creeping, hill, a stop with locked wheels, light wheels.
+// Pedals at their ends and near them: drive torque, creeping, hill, a stop with locked wheels, light wheels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +19,29 @@ using ground::PlaneGround;
 constexpr double kStep = 0.001;
 
 class Pedals : public ::testing::TestWithParam<ModelCase> {};
+
+// Radius and rolling resistance are those that the wheels without a shaft show: v / spin and -F_x / load.
+TEST_P(Pedals, TheDriveTorqueIsThatAtTheWheel) {
+  auto car = MakeModel(GetParam());
+  PlaneGround ground;
+  ASSERT_TRUE(car->Initialise({.speed_mps = 30.0}, ground).ok());
+  Controls controls;
+  controls.gearbox = GearboxMode::kManual;
+  controls.gear = car->state().gear;
+  controls.throttle = car->state().throttle;
+  DriveFor(*car, ground, controls, 2.0);
+  const auto& wheels = car->state().wheels;
+  const std::size_t driven = wheels[kFrontLeft].drive_torque_Nm != 0.0 ? kFrontLeft : kRearLeft;
+  const WheelState& free = wheels[driven ^ 2u];
+  const double resistance = -free.longitudinal_N / free.load_N;
+  const double radius_m = car->state().speed_mps() / free.spin_radps * (1.0 - free.slip);
+  EXPECT_EQ(free.drive_torque_Nm, 0.0);
+  for (const std::size_t i : {driven, driven + 1}) {
+    const WheelState& w = wheels[i];
+    EXPECT_GT(w.drive_torque_Nm, 20.0);
+    EXPECT_NEAR(w.drive_torque_Nm, radius_m * (w.longitudinal_N + resistance * w.load_N), 2e-3 * w.drive_torque_Nm);
+  }
+}
 
 // In D on the level: nothing moves without a pedal, and any pedal moves the car, the more the faster.
 TEST_P(Pedals, ASmallPedalManoeuvresTheCar) {

@@ -49,6 +49,8 @@ TEST(VehicleKeys, EveryDeclaredKeyKeepsItsTypeAndBounds) {
   for (const std::string axle : {"tyre.front", "tyre.rear"}) {
     const config::Values curve{{axle + ".magic_formula", ""}};
     others[axle + ".slip_curve"] = curve;
+    others[axle + ".aligning"] = {{axle + ".magic_formula", ""}, {axle + ".slip_curve.lateral.extremum_slip", "0.1"}};
+    for (const config::Key& key : AligningKeys()) others[axle + ".aligning." + key.name] = others[axle + ".aligning"];
     for (const std::string& way : {axle + ".slip_curve.longitudinal", axle + ".slip_curve.lateral"}) {
       others[way] = others[way + ".asymptote_slip"] = others[way + ".extremum_slip"] = curve;
       others[way + ".asymptote_value"] = others[way + ".extremum_value"] = curve;
