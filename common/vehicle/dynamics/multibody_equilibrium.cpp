@@ -82,7 +82,8 @@ void MultibodyModel::FillTranslation(const Eigen::Vector3d& v_W, std::span<doubl
 // what is missing, by the driven wheels. Returns what the anchors still had to hold, in N.
 double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cruise) {
   const Plane under = GroundPlane({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
-  const Eigen::Vector3d forward = X_WB().linear().col(0);
+  // The chassis' axes have unit length only within the tolerance of its constraints; a speed is measured along a unit.
+  const Eigen::Vector3d forward = X_WB().linear().col(0).normalized();
   const Eigen::Vector3d along = (forward - forward.dot(under.normal_W) * under.normal_W).normalized(),
                         across = under.normal_W.cross(along);
   cruise.v_W = initial.speed_mps / along.dot(forward) * along;
@@ -224,7 +225,7 @@ base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Gr
 void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& cruise) {
   const Contacts contacts = FindContacts(system_->motion());
   const Eigen::Isometry3d pose = X_WB();
-  const Eigen::Vector3d forward = pose.linear().col(0);
+  const Eigen::Vector3d forward = pose.linear().col(0).normalized();
   const Eigen::Vector3d up = pose.linear().col(2);
   const bool cruises = cruise.found;
   const Eigen::Vector3d v =
