@@ -161,8 +161,8 @@ TEST_P(SteeringFeelOfEveryBody, AParkedWheelIsAsHeavyAsItsPatchAndRollsOffWithou
 INSTANTIATE_TEST_SUITE_P(Models, SteeringFeelOfEveryBody,
                          ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
 
-// In a steady bend nothing yaws faster: the axles' side forces and the aligning moments balance about the centre of
-// gravity. The moments by the tyres' own formula.
+// In a steady bend nothing yaws faster: the wheels' longitudinal forces, the axles' side forces and the aligning moments
+// balance about the centre of gravity. The moments by the tyres' own formula.
 TEST(SteeringFeel, TheMomentsTurnTheBodyToo) {
   auto car = MakeModel(kBicycle);
   Steer(*car, 20.0, 8.0, [](double time_s) { return 20.0 * kDegree * std::min(1.0, time_s); });
@@ -177,7 +177,8 @@ TEST(SteeringFeel, TheMomentsTurnTheBodyToo) {
     const double way = s.heading_rad() + w.steer_rad;
     const Eigen::Vector3d along(std::cos(way), std::sin(way), 0.0), across(-std::sin(way), std::cos(way), 0.0);
     const Eigen::Vector3d middle_W = 0.5 * (s.wheels[i & 2u].contact_W + s.wheels[(i & 2u) + 1].contact_W);
-    sides_Nm += (middle_W - centre_W).cross(w.longitudinal_N * along + w.lateral_N * across).z();
+    sides_Nm += (w.contact_W - centre_W).cross(w.longitudinal_N * along).z() +
+                (middle_W - centre_W).cross(w.lateral_N * across).z();
     moments_Nm += SteadyForcesWithMoment(settings.tyre[i / 2], {w.slip, w.slip_angle_tan, 0.0}, w.load_N, w.friction)
                       .aligning_Nm -
                   TwistOnABend(settings.tyre[i / 2], w.load_N, s.w_WB_B.z() / s.speed_mps());
