@@ -2,6 +2,7 @@
 #include "common/traffic/network/traffic_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/core/base/huge_pages.hpp"
@@ -9,6 +10,7 @@
 #include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/network/long_enough.hpp"
 #include "common/traffic/network/swing.hpp"
+#include "common/world/lanes/approach.hpp"
 #include "common/world/lanes/ring.hpp"
 
 namespace rodeira::traffic {
@@ -23,6 +25,19 @@ bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
     return false;
   return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(
              graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
+}
+
+// The side of a zone from which a vehicle turns across the way of oncoming traffic that goes first; -1: neither.
+std::int8_t WaitsSide(const TrafficMap& map, const lanes::Zone& zone) {
+  if (zone.kind != lanes::ZoneKind::kCross) return -1;
+  const int waits = 1 - zone.first;
+  const std::uint32_t mine = zone.track[static_cast<std::size_t>(waits)],
+                      theirs = zone.track[static_cast<std::size_t>(zone.first)];
+  const int across = map.graph[mine].left_hand ? -1 : 1;
+  if (map.plans[mine].turn != across || map.plans[theirs].turn == across) return -1;
+  const double apart = map.graph[mine].curve.nodes().front().along_W.head<2>().dot(
+      map.graph[theirs].curve.nodes().front().along_W.head<2>());
+  return static_cast<std::int8_t>(apart < std::cos(lanes::kHeadOn_rad) ? waits : -1);
 }
 
 std::uint64_t KeyOf(const lanes::Graph& graph, std::uint32_t track) {
@@ -93,7 +108,10 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
   }
   for (const std::uint32_t track : entries) entry_keys.push_back(KeyOf(graph, track));
   base::PreferHugePages(plans);
-  for (const lanes::Zone& zone : zones.zones()) zips.push_back(Zips(graph, zone));
+  for (const lanes::Zone& zone : zones.zones()) {
+    zips.push_back(Zips(graph, zone));
+    waits_side.push_back(WaitsSide(*this, zone));
+  }
   enters.resize(graph.tracks().size());
   watched.resize(graph.tracks().size());
   for (std::uint32_t track = 0; track < enters.size(); ++track) {

@@ -35,6 +35,7 @@ struct TrafficMap {
                               // say where that is
   std::vector<bool> zips;     // by zone: two lanes beside one another come together there without any sign, one by one
                               // from each where it is slow
+  std::vector<std::int8_t> waits_side;  // by zone: the side that turns across oncoming traffic and yields; -1: neither
   Demand demand;
 
   TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);

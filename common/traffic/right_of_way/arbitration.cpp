@@ -64,6 +64,7 @@ void RightOfWay::Arbitrate(double dt_s) {
   for (const std::uint32_t id : out_.order) {
     ConflictPassage& passage = out_.passages[id];
     if (passage.able && out_.grants.Grant(id, true)) continue;
+    if (out_.grants.GrantToWait(id)) continue;
     if (!out_.grants.Urgent(id)) {
       if (passage.able) out_.claims.ComeLater(id);
       continue;

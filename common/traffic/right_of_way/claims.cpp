@@ -47,7 +47,7 @@ void Claims::HoldZones(std::uint32_t id) {
     for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (in >= to || out <= rear) continue;
-      const ZoneGrant grant = agent.GrantOf(out);
+      const ZoneGrant grant = agent.GrantOf(in);
       out_.book.Hold(part.zone, static_cast<std::size_t>(part.side), {id, grant.sure, grant.number, out});
     }
   }

@@ -31,7 +31,12 @@ int LastLetIn(const ReservationTable& book, std::size_t zone, std::size_t agents
 
 }  // namespace
 
-bool Grants::Urgent(std::uint32_t id) const { return out_.agents[id].waited_s > kPriorityWait_s; }
+// Whether it waits past a light for oncoming traffic, and the light is green no more.
+bool Grants::ClearsJunction(std::uint32_t id) const {
+  return out_.agents[id].waits_inside() && !in_.signals.IsGreen(out_.agents[id].grants.back().light);
+}
+
+bool Grants::Urgent(std::uint32_t id) const { return out_.agents[id].waited_s > kPriorityWait_s || ClearsJunction(id); }
 
 // Where two ways merge the holder of the zone takes up room behind it, too.
 bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder) {
@@ -114,6 +119,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
     const bool its_turn = slow && last == crossing.side;
     if (slow && last == theirs) continue;
     if (agents && Urgent(id) && out_.agents[comer.id].waited_s < agent.waited_s) continue;
+    if (agents && ClearsJunction(id) && !ClearsJunction(comer.id)) continue;
     if (!its_turn) {
       if (zone.first == crossing.side) continue;
       const double arrives = in_.claims.ArrivesAt(comer);
@@ -138,16 +144,39 @@ bool Grants::Grant(std::uint32_t id, bool yields) {
   for (const Crossing& crossing : passage.crossings) {
     if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
   }
-  const ZoneGrant grant{passage.end_m, out_.next_grant++, passage.able, passage.lit ? passage.line_m : -1.0};
-  out_.agents[id].granted_m = passage.end_m;
+  for (ZoneGrant& grant : out_.agents[id].grants) grant.sure = grant.sure || (grant.light >= 0 && passage.able);
+  Take(id, passage.crossings.size(),
+       {passage.end_m, out_.next_grant++, passage.able, passage.lit ? passage.line_m : -1.0, passage.end_m});
+  return true;
+}
+
+// Grants the zones before those of oncoming traffic that it has to yield to, for it to wait there.
+bool Grants::GrantToWait(std::uint32_t id) {
+  const ConflictPassage& passage = out_.passages[id];
+  const WaitingPlace& place = passage.place;
+  if (place.in_m < 0.0) return false;
+  double clear = place.in_m;
+  for (std::size_t i = 0; i < place.crossings; ++i) {
+    const Crossing& crossing = passage.crossings[i];
+    if (crossing.zone >= 0 && (Held(id, crossing, true) || Yields(id, crossing))) return false;
+    clear = std::max(clear, crossing.out_m);
+  }
+  if (!out_.room.RoomToWait(id)) return false;
+  Take(id, place.crossings, {place.in_m, out_.next_grant++, false, passage.line_m, clear, place.light});
+  return true;
+}
+
+// Its own are so many of the crossings of its passage.
+void Grants::Take(std::uint32_t id, std::size_t crossings, const ZoneGrant& grant) {
+  out_.agents[id].granted_m = grant.to_m;
   out_.agents[id].grants.push_back(grant);
-  for (const Crossing& crossing : passage.crossings) {
+  for (std::size_t i = 0; i < crossings; ++i) {
+    const Crossing& crossing = out_.passages[id].crossings[i];
     if (crossing.zone < 0) continue;
     out_.book.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
                    {id, grant.sure, grant.number, crossing.out_m});
   }
   out_.passages_ahead.FindPassage(id);  // how far it comes depends on its next line
-  return true;
 }
 
 }  // namespace rodeira::traffic

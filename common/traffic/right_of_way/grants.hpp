@@ -12,12 +12,14 @@
 #include "common/traffic/right_of_way/passages.hpp"
 #include "common/traffic/right_of_way/reservation_table.hpp"
 #include "common/traffic/right_of_way/room.hpp"
+#include "common/traffic/signals/signals.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 
 namespace rodeira::traffic {
 
-// Reservations: a vehicle gets all zones of its passage at once, or none.
+// Reservations: a vehicle gets all zones of its passage at once, or none; one that turns across oncoming traffic at a
+// light may get those before that traffic, and waits there.
 class Grants {
  public:
   struct Reads {
@@ -27,6 +29,7 @@ class Grants {
     const SpeedLimits& limits;
     const Merging& merging;
     const Claims& claims;
+    const Signals& signals;
   };
   struct Writes {
     std::span<Agent> agents;
@@ -42,8 +45,11 @@ class Grants {
   bool TakesRoom(const Crossing& crossing) const;
   bool IsHeld(std::uint32_t id, bool heeded = false);
   bool Grant(std::uint32_t id, bool yields);
+  bool GrantToWait(std::uint32_t id);
 
  private:
+  bool ClearsJunction(std::uint32_t id) const;
+  void Take(std::uint32_t id, std::size_t crossings, const ZoneGrant& grant);
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder);
   bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
   bool Yields(std::uint32_t id, const Crossing& crossing);

@@ -56,7 +56,7 @@ class Merging {
         const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
         const bool merges = part.kind == lanes::ZoneKind::kMerge;
         if (in >= agent.granted_m || (merges ? out : in) < front) continue;
-        const std::uint64_t number = agent.GrantOf(out).number;
+        const std::uint64_t number = agent.GrantOf(in).number;
         for (const Reservation& holder : in_.book.ReservationsOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
           if (holder.id < out_.agents.size() && holder.id != id && holder.number < number)
             tell(holder, in, out, merges);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct Crossing {
 struct ConflictPassageKey {
   std::uint32_t way = 0;                  // number of the way as it was seen (TrafficModel::ways_); 0: of none
   double granted_m = 0.0, until_m = 0.0;  // odometers: to which zones were its own; of its front
+};
+
+// Where a vehicle that turns across oncoming traffic waits for it, past the line of a light.
+struct WaitingPlace {
+  double in_m = -1.0;         // odometer where the zones of oncoming traffic begin; below 0: there is none
+  std::size_t crossings = 0;  // of the passage that lie before it
+  double light_m = 0.0;       // odometer of the light's line
+  std::int64_t light = -1;    // its controller
 };
 
 // The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
@@ -45,6 +54,7 @@ struct ConflictPassage {
   double delay_s = 0.0;    // until the one that keeps it out is out of the way
   double later_s = 0.0;    // so much later than it could it comes, as others are told
   std::int64_t waits_for = -1;
+  WaitingPlace place;
   std::vector<Crossing> crossings;
 };
 

@@ -55,7 +55,8 @@ void Passages::FindPassage(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
   if (!passage.any) return;
   const double to_line = passage.line_m - FrontOf(out_.agents[id], in_.traits[id]), v = out_.agents[id].speed_mps;
-  const bool due = to_line < v * v / (2.0 * in_.traits[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
+  const bool due = out_.agents[id].waits_inside() ||
+                   to_line < v * v / (2.0 * in_.traits[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
   while (due && !out_.ways.SeesTo(id, passage.room_m)) {
     out_.ways.FindRouteSegments(id, passage.room_m - FrontOf(out_.agents[id], in_.traits[id]) + kFarther_m);
     FindCrossings(id);
@@ -73,9 +74,9 @@ void Passages::FindCrossings(std::uint32_t id) {
   const double stand = in_.traits[id].length_m + kStandingMargin_m;
   passage.key = {in_.way_numbers[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
+    const double before = agent.waits_inside() ? kInsideDistance_m : kStopDistance_m;
     if (!passage.any)
-      passage.line_m =
-          crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kStopDistance_m);
+      passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - before);
     passage.any = true;
     passage.end_m = std::max(passage.end_m, crossing.out_m);
     crossings.push_back(crossing);
@@ -99,6 +100,7 @@ void Passages::FindCrossings(std::uint32_t id) {
         if (light) {
           if (passage.any && at > passage.end_m + stand) break;
           passage.lit = true;
+          if (!passage.any) passage.place.light_m = at, passage.place.light = lines[next].light;
           passage.red = passage.red || !out_.signals.IsGreen(lines[next].light);
           passage.end_m = std::max(passage.end_m, at);
         }
@@ -110,8 +112,16 @@ void Passages::FindCrossings(std::uint32_t id) {
     for (const lanes::ZoneSide& part : sides) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (out <= rear || out <= agent.granted_m || in < front - 0.5 * kStopDistance_m) continue;
+      if (in < agent.granted_m && agent.GrantOf(in).number > 0) {
+        passage.end_m = std::max(passage.end_m, out);
+        continue;
+      }
       take_lines(in + kStopDistance_m);
       if (passage.any && in > passage.end_m + stand) break;
+      WaitingPlace& place = passage.place;
+      if (place.light >= 0 && place.in_m < 0.0 && in_.map.waits_side[part.zone] == part.side &&
+          in > place.light_m + kPastSignalLine_m + kInsideDistance_m)
+        place.in_m = in, place.crossings = crossings.size();
       take({static_cast<std::int32_t>(part.zone), part.side, in, out});
     }
     if (!passage.any || passage.end_m + stand > stretch.end_m) take_lines(stretch.end_m + kStopDistance_m);
@@ -126,9 +136,10 @@ void Passages::ComeToLine(std::uint32_t id, double dt_s) {
   Agent& agent = out_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m;
   if (!agent.grants.empty())
-    agent.grants.erase(std::remove_if(agent.grants.begin(), agent.grants.end(),
-                                      [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; }),
-                       agent.grants.end());
+    agent.grants.erase(
+        std::remove_if(agent.grants.begin(), agent.grants.end(),
+                       [&](const ZoneGrant& grant) { return std::max(grant.to_m, grant.clear_m) <= agent.o_m - half; }),
+        agent.grants.end());
   out_.signals.ObeyLights(id);
   FindPassage(id);
   ConflictPassage& passage = out_.passages[id];

@@ -21,7 +21,9 @@ constexpr int kDeepest = 256;           // longer columns count as ending there
 constexpr double kStands_mps = 0.5, kFollows_s = 1.2,
                  kClose_m =
                      3.0;  // slower, one with no more than so far to close up starts so much later than its leader
-constexpr double kWaits_s = 3.0;  // within its zones for one that leaves it room, at most, as told beforehand
+constexpr double kPastLight_m = 0.1;   // a front so far beyond a light's line stands past it
+constexpr double kRowInside_m = 25.0;  // of vehicles that wait past a light for oncoming traffic, at most
+constexpr double kWaits_s = 3.0;       // within its zones for one that leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kStoppingBraking_mps2); }
 
@@ -165,6 +167,22 @@ void Room::FindRoom(std::uint32_t id) {
         rear_m + 0.5 * in_.traits[next].length_m + out_.passages[next].line_m - in_.agents[next].o_m;
     if (out_.passages[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
   });
+}
+
+// Whether it can stand past the light, behind those that wait there for oncoming traffic, and whether there is room
+// behind the zones for all of them.
+bool Room::RoomToWait(std::uint32_t id) {
+  const ConflictPassage& passage = out_.passages[id];
+  const double apart = in_.traits[id].idm.standing_gap_m + kShort_m;
+  double stands = passage.place.in_m - kInsideDistance_m, needs = passage.room_m, leaves = kNever_m;
+  EachAhead(id, needs + kRowInside_m, 0, [&](std::int64_t other, double rear_m, double comes_m) {
+    stands = std::min(stands, comes_m - apart);
+    if (rear_m >= passage.place.in_m)
+      leaves = std::min(leaves, comes_m);
+    else
+      needs += apart + (other >= 0 ? in_.traits[static_cast<std::size_t>(other)].length_m : 2.0 * in_.longest_half_m);
+  });
+  return stands > passage.place.light_m + kPastLight_m && leaves >= needs;
 }
 
 bool Room::RoomAhead(std::uint32_t id) const {

@@ -50,6 +50,7 @@ class Room {
   // stands at a line before conflict zones, none up to where it would stand behind them.
   bool RoomAhead(std::uint32_t id) const;
   void TellComing(std::uint32_t id);
+  bool RoomToWait(std::uint32_t id);
 
  private:
   template <class Tell>

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/driving/driver/smooth.hpp"
+#include "common/traffic/right_of_way/queueing.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
@@ -16,6 +17,7 @@ namespace {
 constexpr double kForAmber_mps2 = 2.9;
 
 constexpr double kOthers_mps2 = 2.8;  // of vehicles that are no agents
+constexpr double kRests_mps = 0.3;    // a slower vehicle is about to stand
 constexpr double kLineTolerance_m = 0.01;
 
 // The way to rest from an acceleration, by a jerk to that braking and from it.
@@ -70,7 +72,9 @@ void Signals::ObeyLights(std::uint32_t id) {
                stops = StopsIn(agent.speed_mps, agent.wish_mps2, in_.settings.smooth.planned_mps3);
   for (std::size_t i = 0; i < agent.grants.size(); ++i) {
     const ZoneGrant& grant = agent.grants[i];
-    const double gap = grant.light_m - front;
+    // One that was to wait past the line, and comes to rest before it, stays there.
+    const bool rests = grant.light >= 0 && agent.speed_mps < kRests_mps;
+    const double gap = grant.light_m - front + (rests ? kStopDistance_m : 0.0);
     if (grant.light_m < 0.0 || gap < 0.0 || stops > gap) continue;
     if (AllGreen(id, grant.light_m, grant.to_m)) continue;
     agent.granted_m = std::min(agent.granted_m, grant.light_m - kLineTolerance_m);

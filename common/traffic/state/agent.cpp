@@ -51,10 +51,14 @@ void Agent::Save(base::StateWriter& writer) const {
   std::vector<std::uint64_t> grants_told;
   for (const ZoneGrant& grant : grants) {
     grants_to.push_back(grant.to_m);
-    grants_told.insert(grants_told.end(), {grant.number, grant.sure ? 1u : 0u});
+    grants_told.insert(grants_told.end(),
+                       {grant.number, 2 * static_cast<std::uint64_t>(grant.light + 1) + (grant.sure ? 1u : 0u)});
     grants_light.push_back(grant.light_m);
   }
-  writer.Put("grants_to", grants_to);
+  for (const ZoneGrant& grant : grants) {
+    if (grant.light >= 0) grants_to.push_back(grant.clear_m);
+  }
+  writer.Put("grants_to", grants_to);  // after them the ends of those that wait
   writer.Put("grants_told", grants_told);
   writer.Put("grants_light", grants_light);
   writer.Put("stopped_m", stopped_m);
@@ -113,8 +117,14 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("grants_told", grants_told);
   reader.Get("grants_light", grants_light);
   grants.clear();
-  for (std::size_t i = 0; i < grants_to.size() && 2 * i + 1 < grants_told.size() && i < grants_light.size(); ++i) {
-    grants.push_back({grants_to[i], grants_told[2 * i], grants_told[2 * i + 1] != 0, grants_light[i]});
+  const std::size_t count = std::min({grants_to.size(), grants_told.size() / 2, grants_light.size()});
+  std::size_t clear = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t told = grants_told[2 * i + 1];
+    ZoneGrant grant{grants_to[i], grants_told[2 * i], told % 2 != 0, grants_light[i], grants_to[i]};
+    grant.light = static_cast<std::int64_t>(told / 2) - 1;
+    if (grant.light >= 0 && clear < grants_to.size()) grant.clear_m = grants_to[clear++];
+    grants.push_back(grant);
   }
   reader.Get("stopped_m", stopped_m);
   reader.Get("waited_s", waited_s);

@@ -70,6 +70,8 @@ struct ZoneGrant {
   std::uint64_t number = 0;  // of two that hold a zone the lower one goes first
   bool sure = false;         // there is room behind the zones, so that nothing keeps the agent in them
   double light_m = -1.0;     // odometer of the line of a light before them; below 0: none
+  double clear_m = 0.0;      // odometer at the end of the one that ends last, where that is beyond `to_m`
+  std::int64_t light = -1;   // controller of the light past which the vehicle waits for oncoming traffic; below 0: none
 };
 
 // What changes about one agent. First, in one line of memory, what others ask of it.
@@ -111,13 +113,15 @@ struct alignas(64) Agent {
   Crashed struck;
   double struck_z_m = 0.0;  // its height, where no lane is below it
 
-  // That of a zone with this end; nothing for zones that it came into without any.
-  ZoneGrant GrantOf(double out_m) const {
+  // That of a zone that begins there; nothing for zones that it came into without any.
+  ZoneGrant GrantOf(double in_m) const {
     for (const ZoneGrant& grant : grants) {
-      if (out_m <= grant.to_m) return grant;
+      if (in_m < grant.to_m) return grant;
     }
     return {};
   }
+  // It may stand in the zones that it was granted last, past their light, to wait for oncoming traffic.
+  bool waits_inside() const { return !grants.empty() && grants.back().light >= 0; }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
