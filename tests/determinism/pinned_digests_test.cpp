@@ -34,9 +34,9 @@ TEST_P(PinnedRuns, KeepTheirDigest) {
 
 INSTANTIATE_TEST_SUITE_P(
     LaunchFiles, PinnedRuns,
-    ::testing::Values(PinnedRun{"demo.yaml", "54ceddc25198ebd3"}, PinnedRun{"first_drive.yaml", "c6bd46e314d133e7"},
-                      PinnedRun{"scripted.yaml", "3efacb4fc5e0052b"}, PinnedRun{"car_ahead.yaml", "68f87614de0aba69"},
-                      PinnedRun{"rain.yaml", "305af9a158f9341e"}, PinnedRun{"lights.yaml", "55bb3e338ae269d2"}));
+    ::testing::Values(PinnedRun{"demo.yaml", "edd5e062e8c76c1e"}, PinnedRun{"first_drive.yaml", "ce1b211ff3689fa2"},
+                      PinnedRun{"scripted.yaml", "dbb9efae7854cc9d"}, PinnedRun{"car_ahead.yaml", "6e707091942c3900"},
+                      PinnedRun{"rain.yaml", "2deb69171be00132"}, PinnedRun{"lights.yaml", "9d955d99e78d83e4"}));
 
 struct PinnedTraffic {
   const char* map;
@@ -81,12 +81,24 @@ INSTANTIATE_TEST_SUITE_P(Maps, PinnedTrajectories,
                                                          "f923dae30a000e68"},
                                            PinnedTraffic{"configs/worlds/n222.yaml", "40", "30", "0d4db264c1b7eb5e"}));
 
-// 0.2 s of scripted.yaml, recorded by the program of commit 2c2fa2f4.
+system_test::Ended Verify(const std::string& recording) {
+  return system_test::RunCommand(
+      {system_test::Bin("rodeira"), "replay", "--verify", SourceDir() + "/tests/data/recordings/" + recording});
+}
+
+// 0.2 s of scripted.yaml, recorded by the first program whose cars have the aligning moment.
 TEST(PinnedRecording, OfAnEarlierProgramIsComputedAgain) {
-  const auto ended = system_test::RunCommand({system_test::Bin("rodeira"), "replay", "--verify",
-                                              SourceDir() + "/tests/data/recordings/scripted_2c2fa2f4.mcap"});
+  const auto ended = Verify("scripted_aligning.mcap");
   EXPECT_EQ(ended.status, 0) << ended.out;
   EXPECT_NE(ended.out.find("identical: 200 steps"), std::string::npos) << ended.out;
+}
+
+// The same, recorded by the program of commit 2c2fa2f4, whose car had no aligning moment.
+TEST(PinnedRecording, OfAnotherVehicleModelIsTold) {
+  const auto ended = Verify("scripted_2c2fa2f4.mcap");
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("node 'ego', topic rodeira/vehicle_state"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("recorded by another program"), std::string::npos) << ended.out;
 }
 
 }  // namespace
