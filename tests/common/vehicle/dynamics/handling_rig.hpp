@@ -61,13 +61,14 @@ class RigLoad final : public multibody::Load {
 struct AxleStiffness {
   double front_Nprad = 0.0, rear_Nprad = 0.0;
   double front_to_centre_m = 0.0, centre_to_rear_m = 0.0;  // of the whole car's mass
+  double front_share = 0.0, rear_share = 0.0;              // of the side force in a bend: aligning moments shift them
   double mass_kg = 0.0;
   double steering_ratio = 0.0;  // of the linkage alone, nothing yielding
 
   double wheelbase_m() const { return front_to_centre_m + centre_to_rear_m; }
   // rad per m/s²
   double UndersteerGradient() const {
-    return mass_kg / wheelbase_m() * (centre_to_rear_m / front_Nprad - front_to_centre_m / rear_Nprad);
+    return mass_kg * (front_share / front_Nprad - rear_share / rear_Nprad);
   }
 };
 
@@ -83,7 +84,7 @@ inline double CentreOfMass(const MultibodySettings& settings) {
 }
 
 // Two small loads, one by the heading (both axles slip) and one by the steering wheel (the front axle slips), are put
-// together so that the axles' forces stand in the ratio that they have in a bend.
+// together so that side forces and aligning moments balance about the centre of mass, as they do in a bend.
 inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) {
   const auto rig = std::make_shared<RigLoad>(settings.mechanism, settings.chassis);
   settings.mechanism.loads.push_back({"rig", rig});
@@ -99,11 +100,13 @@ inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) 
     controls.gear = 0;
     controls.steering_wheel_rad = wheel_rad;
     for (int i = 0; i < 1500; ++i) car.Step(controls, ground, 0.001);
-    Eigen::Vector3d result = Eigen::Vector3d::Zero();  // side force of the axles, front wheels' angle
+    // Side force of the axles, front wheels' angle, aligning moment of all tyres.
+    Eigen::Vector4d result = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < kWheels; ++i) {
       const WheelState& w = car.state().wheels[i];
       result[i < 2 ? 0 : 1] += w.lateral_N * std::cos(w.steer_rad) + w.longitudinal_N * std::sin(w.steer_rad);
       if (i < 2) result[2] += 0.5 * w.steer_rad;
+      result[3] += w.aligning_Nm;
     }
     return result;
   };
@@ -118,16 +121,19 @@ inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) 
   axles.centre_to_rear_m = centre - rear;
   constexpr double kHeading = 0.004, kWheel = 0.064;
   axles.steering_ratio = 2.0 * kWheel / (drive(0.0, kWheel, 1e-9) - drive(0.0, -kWheel, 1e-9))[2];
-  const Eigen::Vector3d crab = (drive(kHeading, 0.0, 1.0) - drive(-kHeading, 0.0, 1.0)) / (2.0 * kHeading);
-  const Eigen::Vector3d steer =
+  const Eigen::Vector4d crab = (drive(kHeading, 0.0, 1.0) - drive(-kHeading, 0.0, 1.0)) / (2.0 * kHeading);
+  const Eigen::Vector4d steer =
       (drive(0.0, kWheel, 1.0) - drive(0.0, -kWheel, 1.0)) / (2.0 * kWheel / axles.steering_ratio);
-  Eigen::Matrix2d forces;
-  forces << crab[0], steer[0], crab[1], steer[1];
-  // Per newton of side force.
-  const Eigen::Vector2d share = Eigen::Vector2d(axles.centre_to_rear_m, axles.front_to_centre_m) / axles.wheelbase_m();
-  const Eigen::Vector2d slip = forces.inverse() * share;  // heading, steering
-  axles.front_Nprad = share[0] / (slip[0] + slip[1]);
-  axles.rear_Nprad = share[1] / slip[0];
+  const auto turns = [&](const Eigen::Vector4d& by) {
+    return axles.front_to_centre_m * by[0] - axles.centre_to_rear_m * by[1] + by[3];
+  };
+  Eigen::Matrix2d balance;
+  balance << crab[0] + crab[1], steer[0] + steer[1], turns(crab), turns(steer);
+  const Eigen::Vector2d slip = balance.inverse() * Eigen::Vector2d(1.0, 0.0);  // heading, steering per newton
+  axles.front_share = crab[0] * slip[0] + steer[0] * slip[1];
+  axles.rear_share = crab[1] * slip[0] + steer[1] * slip[1];
+  axles.front_Nprad = axles.front_share / (slip[0] + slip[1]);
+  axles.rear_Nprad = axles.rear_share / slip[0];
   return axles;
 }
 

@@ -48,7 +48,8 @@ Bend DriveRound(VehicleModel& car, double speed_mps, double wheel_rad) {
   return bend;
 }
 
-// Below 1 m/s²: yaw rate over the front wheels' angle V / (L + K V²), sideslip (b - a m V²/(L Cr)) / (L + K V²).
+// Below 1 m/s²: yaw rate over the front wheels' angle V / (L + K V²), sideslip (b - s m V²/Cr) / (L + K V²), where s is
+// the rear axle's share of the side force: a/L without aligning moments.
 TEST(PrototypeHandling, BendsAsTheClosedFormWithItsAxlesStiffnesses) {
   auto car = Car("prototype.yaml");
   for (const double speed : {10.0, 20.0, 30.0}) {
@@ -67,7 +68,7 @@ TEST(PrototypeHandling, BendsAsTheClosedFormWithItsAxlesStiffnesses) {
     // B lies midway between the axles, not at the centre of gravity: its sideslip is r (b - L/2) / V less. Each of the
     // two terms that the sideslip is the difference of holds to 5 %.
     const double to_middle = axles.centre_to_rear_m - 0.5 * axles.wheelbase_m();
-    const double to_slip = axles.front_to_centre_m * axles.mass_kg * v2 / (axles.wheelbase_m() * axles.rear_Nprad);
+    const double to_slip = axles.rear_share * axles.mass_kg * v2 / axles.rear_Nprad;
     const double sideslip = (bend.sideslip_rad + bend.yaw_rate_radps / bend.speed_mps * to_middle) / angle;
     EXPECT_NEAR(sideslip, (axles.centre_to_rear_m - to_slip) / denominator,
                 0.05 * (axles.centre_to_rear_m + to_slip) / denominator)
