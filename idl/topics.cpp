@@ -17,6 +17,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
       {topics::kWeatherState, "rodeira::msg::WeatherState", "weather", true},
+      {topics::kMeasures, "rodeira::msg::Measures", "measures", true},
       {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
       {topics::kSampleBatches, "rodeira::msg::SampleBatch", "sample_batch", false},

@@ -23,6 +23,7 @@ inline constexpr std::string_view kTrafficDetails =
 inline constexpr std::string_view kSignalsState = "rodeira/signals_state";      ///< SignalsState: traffic lights
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";  ///< ScenarioEvents
 inline constexpr std::string_view kWeatherState = "rodeira/weather_state";      ///< WeatherState
+inline constexpr std::string_view kMeasures = "rodeira/measures";               ///< Measures of a vehicle
 inline constexpr std::string_view kPulse = "rodeira/pulse";                     ///< Pulse, of test nodes
 inline constexpr std::string_view kSnapshot = "rodeira/snapshot";  ///< Snapshot: states of nodes, for sinks
 inline constexpr std::string_view kSampleBatches =

@@ -64,6 +64,8 @@ class Cyclone : public ::testing::Test {
         "--set",
         "nodes.pulse={kind: empty}",
         "--set",
+        "nodes.gauge={kind: measures}",
+        "--set",
         "nodes.story={kind: scenario, config: {scenario: " + SourceDir() + "/configs/scenarios/rain_at_dusk.yaml}}"};
   }
   static std::vector<std::string> Observer(const Meeting& meeting) {

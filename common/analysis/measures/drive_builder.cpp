@@ -7,14 +7,6 @@
 namespace rodeira::measures {
 namespace {
 
-void Put(Neighbour& into, std::size_t k, const Near& near) {
-  if (near.vehicle == nullptr) return;
-  into.id[k] = static_cast<double>(near.vehicle->id);
-  into.gap_m[k] = near.gap_m;
-  into.speed_mps[k] = near.vehicle->speed_mps;
-  into.length_m[k] = near.vehicle->length_m;
-}
-
 // Between two samples of slower traffic the same neighbour's values are linear. A sample without a frame lies between.
 void FillBetween(Neighbour& n, const std::vector<std::size_t>& frames) {
   for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -60,16 +52,7 @@ void DriveBuilder::AddSubject(std::size_t k, const SubjectSample& sample) {
   const bool gap = k > next_;
   GrowTo(k + 1);
   next_ = k + 1;
-  drive_.x_m[k] = sample.x_m;
-  drive_.y_m[k] = sample.y_m;
-  drive_.z_m[k] = sample.z_m;
-  drive_.heading_rad[k] = sample.heading_rad;
-  drive_.speed_mps[k] = sample.speed_mps;
-  drive_.yaw_radps[k] = sample.yaw_radps;
-  drive_.throttle[k] = sample.throttle;
-  drive_.brake[k] = sample.brake;
-  drive_.steering_wheel_deg[k] = sample.steering_wheel_deg;
-  drive_.indicator[k] = sample.indicator;
+  PutSubject(sample, k, drive_);
   if (graph_) {
     // It was set somewhere else, or the samples between are missing: no lane is left from there.
     constexpr double kJump_m = 5.0;
@@ -92,23 +75,8 @@ void DriveBuilder::AddLane(std::size_t k, const SubjectSample& sample) {
   drive_.episode[k] = episode_;
   last_place_ = place;
   if (!place) return;
-  drive_.road[k] = static_cast<double>(place->lane.road);
-  drive_.lane[k] = place->lane.lane;
-  drive_.s_m[k] = place->s_m;
-  drive_.t_m[k] = place->t_m;
-  drive_.junction[k] = place->junction ? 1.0 : 0.0;
-  drive_.speed_limit_mps[k] = place->speed_limit_mps.value_or(kMissing);
+  PutPlace(*place, k, drive_);
   along_m_[k] = place->along_m;
-  if (place->junction) return;  // several lanes lie over one another there
-  drive_.lane_width_m[k] = place->width_m;
-  drive_.lane_position_m[k] = place->position_m;
-  drive_.heading_error_rad[k] = place->heading_error_rad;
-  drive_.lane_curvature_1pm[k] = place->curvature_1pm;
-  const double sine = std::sin(place->heading_error_rad), cosine = std::cos(place->heading_error_rad);
-  const double front = drive_.front_m * sine, rear = (drive_.front_m - drive_.length_m) * sine;
-  const double half = 0.5 * drive_.width_m * std::abs(cosine);
-  drive_.left_line_m[k] = 0.5 * place->width_m - (place->position_m + std::max(front, rear) + half);
-  drive_.right_line_m[k] = 0.5 * place->width_m + (place->position_m + std::min(front, rear) - half);
 }
 
 void DriveBuilder::AddOthers(std::size_t k, const std::vector<OtherVehicle>& others, bool traffic) {
@@ -141,26 +109,8 @@ void DriveBuilder::FindNeighbours(std::size_t k, const Frame& frame) {
   for (auto v = after - 1; v != visits_.begin() && after - v < kVisits; --v) {
     if ((v - 1)->track >= 0) earlier.push_back(static_cast<std::uint32_t>((v - 1)->track));
   }
-  // Only those that may be near are looked up.
-  std::vector<OtherVehicle> close;
-  for (const OtherVehicle& other : frame.others) {
-    if (std::hypot(other.x_m - drive_.x_m[k], other.y_m - drive_.y_m[k]) < kNeighbourReach_m) close.push_back(other);
-  }
-  leaders_->SetOthers(close);
-  const double front = drive_.front_m, rear = drive_.length_m - drive_.front_m;
-  const auto own = static_cast<std::uint32_t>(track);
-  const NearBoth near = leaders_->Find(own, along_m_[k], front, rear, later, earlier);
-  Put(drive_.leader, k, near.ahead);
-  Put(drive_.follower, k, near.behind);
-  const auto beside = [&](const std::optional<std::uint32_t>& next_lane, Neighbour& ahead, Neighbour& behind) {
-    if (!next_lane) return;
-    const double along = graph_->Across(own, along_m_[k], *next_lane);
-    const NearBoth both = leaders_->Find(*next_lane, along, front, rear, later, earlier);
-    Put(ahead, k, both.ahead);
-    Put(behind, k, both.behind);
-  };
-  beside((*graph_)[own].left, drive_.left_leader, drive_.left_follower);
-  beside((*graph_)[own].right, drive_.right_leader, drive_.right_follower);
+  PutNeighbours(*graph_, *leaders_, static_cast<std::uint32_t>(track), along_m_[k], frame.others, later, earlier, k,
+                drive_);
 }
 
 Drive DriveBuilder::Finish() {

@@ -7,19 +7,9 @@
 #include <vector>
 
 #include "common/analysis/measures/drive.hpp"
-#include "common/analysis/measures/leader_finder.hpp"
+#include "common/analysis/measures/sample_kinematics.hpp"
 
 namespace rodeira::measures {
-
-// What is known of the subject at one sample.
-struct SubjectSample {
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
-  double heading_rad = 0.0;
-  double speed_mps = 0.0;
-  double yaw_radps = kMissing;
-  double throttle = kMissing, brake = kMissing, steering_wheel_deg = kMissing;
-  double indicator = 0.0;
-};
 
 // Puts a drive together from samples as they come. The subject's come in the order of time; the other vehicles' may be
 // up to kLag samples earlier or later: leaders are looked for that much later, when the subject's way is known.

@@ -234,16 +234,13 @@ std::optional<std::size_t> DriveChannels::SampleOf(const record::Message& messag
 
 void DriveChannels::TakeVehicle(std::size_t k, const Numbers& numbers, DriveBuilder& builder) {
   const std::vector<double>& v = values_;
-  // The body's x axis in W.
-  const double ax = 1.0 - 2.0 * (v[kQy] * v[kQy] + v[kQz] * v[kQz]), ay = 2.0 * (v[kQx] * v[kQy] + v[kQw] * v[kQz]),
-               az = 2.0 * (v[kQx] * v[kQz] - v[kQw] * v[kQy]);
-  const double speed = v[kVx] * ax + v[kVy] * ay + v[kVz] * az;
+  const AlongBody along = AlongBodyOf(v[kQw], v[kQx], v[kQy], v[kQz], v[kVx], v[kVy], v[kVz]);
   if (numbers.vehicle != vehicle_ || agent_) {
-    builder.AddOthers(k, {{-numbers.vehicle, v[kX], v[kY], v[kZ], speed, v[kLength], v[kFront]}}, false);
+    builder.AddOthers(k, {{-numbers.vehicle, v[kX], v[kY], v[kZ], along.speed_mps, v[kLength], v[kFront]}}, false);
     return;
   }
   builder.SetFootprint(v[kLength], v[kFront], v[kWidth]);
-  builder.AddSubject(k, {v[kX], v[kY], v[kZ], std::atan2(ay, ax), speed, v[kYawRate], v[kThrottle], v[kBrake],
+  builder.AddSubject(k, {v[kX], v[kY], v[kZ], along.heading_rad, along.speed_mps, v[kYawRate], v[kThrottle], v[kBrake],
                          v[kWheel] * 180.0 / std::numbers::pi, IndicatorOf(v[kLights])});
 }
 

@@ -17,6 +17,7 @@
 #include "collisions.h"
 #include "controls.h"
 #include "ground.h"
+#include "measures.h"
 #include "operator_input.h"
 #include "pulse.h"
 #include "run_log.h"
@@ -48,6 +49,7 @@ static struct Subject g_subjects[] = {
     {"rodeira/signals_state", &rodeira_msg_SignalsState_desc, 0, false},
     {"rodeira/scenario_events", &rodeira_msg_ScenarioEvents_desc, 0, false},
     {"rodeira/weather_state", &rodeira_msg_WeatherState_desc, 0, false},
+    {"rodeira/measures", &rodeira_msg_Measures_desc, 0, false},
     {"rodeira/snapshot", &rodeira_msg_Snapshot_desc, 0, false},
     {"rodeira/pulse", &rodeira_msg_Pulse_desc, 0, false},
     {"rodeira/sample_batches/recorder", &rodeira_msg_SampleBatch_desc, 0, false},

@@ -204,6 +204,17 @@ void Fields(V& v, msg::WeatherState& m) {
       v("visibility_m", m.visibility_m()), v("clouds", m.clouds()), v("hour", m.hour()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::Measures& m) {
+  v("header", m.header()), v("state_step", m.state_step()), v("s_m", m.s_m()), v("t_m", m.t_m()),
+      v("lane_position_m", m.lane_position_m()), v("lane_width_m", m.lane_width_m()),
+      v("heading_error_rad", m.heading_error_rad()), v("left_line_m", m.left_line_m()),
+      v("right_line_m", m.right_line_m()), v("speed_mps", m.speed_mps()), v("speed_limit_mps", m.speed_limit_mps()),
+      v("leader_gap_m", m.leader_gap_m()), v("leader_speed_mps", m.leader_speed_mps()), v("time_gap_s", m.time_gap_s()),
+      v("ttc_s", m.ttc_s()), v("tlc_s", m.tlc_s()), v("leader_id", m.leader_id()), v("road", m.road()),
+      v("lane", m.lane()), v("junction", m.junction()), v("valid", m.valid()), v("vehicle", m.vehicle()),
+      v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::Vector3& m) {
   v("x", m.x()), v("y", m.y()), v("z", m.z());
 }
@@ -368,6 +379,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::TrafficDetails>(), "rodeira::msg::TrafficDetails");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
   use(TypeTag<msg::WeatherState>(), "rodeira::msg::WeatherState");
+  use(TypeTag<msg::Measures>(), "rodeira::msg::Measures");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
   use(TypeTag<msg::SampleBatch>(), "rodeira::msg::SampleBatch");

@@ -152,6 +152,7 @@ TEST(Launch, EveryDeclaredKeyKeepsItsTypeAndBounds) {
        {"discovery.address", server},
        {"discovery.port", port},
        {"nodes.NAME.kind=vehicle", nodes("{a: {kind: vehicle}, b: {kind: input}}")},
+       {"nodes.NAME.kind=measures", nodes("{a: {kind: measures}, b: {kind: vehicle}, c: {kind: input}}")},
        {"nodes.NAME.kind=external",
         nodes("{a: {kind: external, program: eye, manifest: eye.yaml}, b: {kind: vehicle}, c: {kind: input}}")},
        {"nodes.NAME.program", external},
