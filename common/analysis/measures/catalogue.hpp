@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/analysis/measures/drive.hpp"
+#include "common/analysis/measures/lane_change_test.hpp"
 #include "common/core/base/result.hpp"
 
 // The measures of a table, by name: what `rodeira measures --list` and `--explain` say, and how each is computed.
@@ -20,6 +21,7 @@ struct DriveCut {
   const Drive& drive;
   std::size_t from = 0, to = 0;
   std::optional<std::pair<std::size_t, std::size_t>> baseline;  // of the same driver
+  const LaneChangeTest* lane_change_test = nullptr;             // null: there is none
 
   Series operator()(const std::vector<double>& column) const { return Part(column, from, to); }
 };
@@ -65,6 +67,7 @@ std::vector<MeasureInfo> SteeringMeasures();
 std::vector<MeasureInfo> SpeedMeasures();
 std::vector<MeasureInfo> LeaderMeasures();
 std::vector<MeasureInfo> DriverMeasures();
+std::vector<MeasureInfo> LaneChangeTestMeasures();
 
 // `rodeira measures --list`: a line a measure. `--explain NAME`: all that is known of one.
 std::string ListText();

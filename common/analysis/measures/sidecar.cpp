@@ -52,6 +52,13 @@ std::string SidecarText(const MeasuresSpec& spec, std::span<const MeasuresRow> r
     if (interval.min_s > 0.0) text += fmt::format(", min_s: {}", interval.min_s);
     text += "}\n";
   }
+  if (const LaneChangeTest& test = spec.lane_change_test; !test.signs.empty()) {
+    text += fmt::format("lane_change_test:\n  start_t_m: {}\n", test.start_t_m);
+    if (test.road) text += fmt::format("  road: {}\n", *test.road);
+    text += "  signs:\n";
+    for (const LaneChangeSign& sign : test.signs)
+      text += fmt::format("    - {{s_m: {}, t_m: {}}}\n", sign.s_m, sign.target_t_m);
+  }
   text += "measures:\n";
   for (const MeasureInfo* info : spec.measures) text += fmt::format("  - {}\n", info->name);
   std::string options;

@@ -55,6 +55,24 @@ void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
   }
 }
 
+void ReadLaneChangeTest(const config::Map& root, LaneChangeTest& test) {
+  if (!root.Has("lane_change_test")) return;
+  const config::Map map = root.Child("lane_change_test");
+  constexpr double kFar_m = 1e6;
+  test.start_t_m = map.Number("start_t_m", {-kFar_m, kFar_m});
+  if (map.Has("road")) test.road = static_cast<int>(map.Integer("road", 0, 1'000'000));
+  const config::List list = map.Items("signs");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const config::Map item = list.At(i);
+    const LaneChangeSign sign{item.Number("s_m", {-kFar_m, kFar_m}), item.Number("t_m", {-kFar_m, kFar_m})};
+    if (!test.signs.empty() && sign.s_m <= test.signs.back().s_m)
+      item.Problem(
+          "s_m", "measure.signs_not_ascending",
+          fmt::format("{:g} was found behind {:g}; ascending stations were expected", sign.s_m, test.signs.back().s_m));
+    test.signs.push_back(sign);
+  }
+}
+
 void ReadMeasures(const config::Map& root, MeasuresSpec& spec) {
   if (!root.Has("measures")) return;
   spec.measures.clear();
@@ -139,6 +157,7 @@ base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
   spec.baseline = root.Text("baseline", "");
   ReadIntervals(root, spec);
   ReadMeasures(root, spec);
+  ReadLaneChangeTest(root, spec.lane_change_test);
   ReadOptions(root, spec);
   root.IgnoreKey("recordings");  // a sidecar lists what its table was made of
   root.IgnoreKey("version");
@@ -175,7 +194,7 @@ std::vector<MeasuresRow> ComputeRows(const MeasuresSpec& spec, const DriveReadin
         continue;
       }
       const auto given = spec.options.find(info->name);
-      row.values.push_back(info->compute({drive, from, to, baseline},
+      row.values.push_back(info->compute({drive, from, to, baseline, &spec.lane_change_test},
                                          {info->options, given == spec.options.end() ? kNone : given->second}));
     }
     rows.push_back(std::move(row));

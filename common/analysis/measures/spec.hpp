@@ -19,6 +19,7 @@ struct MeasuresSpec {
   std::vector<const MeasureInfo*> measures;
   std::map<std::string, std::map<std::string, double>> options;  // by measure: those that are not the default
   std::string baseline;  // name of the interval that is the driver's baseline; empty: none
+  LaneChangeTest lane_change_test;
 };
 
 // Every measure, over the whole recording.
