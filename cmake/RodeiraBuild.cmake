@@ -120,6 +120,8 @@ function(rodeira_test name)
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
     GTest::gtest_main)
   rodeira_needs_geodata(${name}_test)
+  # A cache of the build folder's own, which its tests share as the processes of a run do.
+  list(APPEND ARG_PROPERTIES ENVIRONMENT_MODIFICATION RODEIRA_CACHE=set:${CMAKE_BINARY_DIR}/cache)
   set(others)
   if(ARG_ALONE)
     list(JOIN ARG_ALONE ":" alone)

@@ -2,6 +2,7 @@
 #include "common/core/base/user_folders.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 namespace rodeira::base {
 namespace {
@@ -18,5 +19,11 @@ std::filesystem::path Folder(const char* variable, const char* below_home) {
 std::filesystem::path UserDataFolder() { return Folder("XDG_DATA_HOME", ".local/share"); }
 
 std::filesystem::path UserConfigFolder() { return Folder("XDG_CONFIG_HOME", ".config"); }
+
+std::filesystem::path UserCacheFolder() {
+  const char* cache = std::getenv("RODEIRA_CACHE");
+  if (cache == nullptr || *cache == '\0') return Folder("XDG_CACHE_HOME", ".cache");
+  return std::string_view(cache) == "off" ? std::filesystem::path() : std::filesystem::path(cache);
+}
 
 }  // namespace rodeira::base

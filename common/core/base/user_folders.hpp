@@ -10,5 +10,7 @@ namespace rodeira::base {
 std::filesystem::path UserDataFolder();
 // $XDG_CONFIG_HOME/rodeira, else ~/.config/rodeira.
 std::filesystem::path UserConfigFolder();
+// $RODEIRA_CACHE, else $XDG_CACHE_HOME/rodeira, else ~/.cache/rodeira; empty where $RODEIRA_CACHE is "off".
+std::filesystem::path UserCacheFolder();
 
 }  // namespace rodeira::base

@@ -163,6 +163,15 @@ double BaseOf(std::span<const AxisPoint> axis) {
   return length_m > 0.0 ? 10.0 * std::round(0.1 * sum / length_m) : 0.0;
 }
 
+terrain::ElevationGrid::Frame FrameOf(const HillsSpec& spec) {
+  return {spec.columns,
+          spec.rows,
+          spec.west_m,
+          spec.south_m,
+          spec.west_m + (spec.columns - 1) * spec.spacing_m,
+          spec.south_m + (spec.rows - 1) * spec.spacing_m};
+}
+
 terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const AxisPoint> axis) {
   RODEIRA_ASSERT(spec.full_m > spec.flat_m && spec.flat_m > 0.0 && spec.spacing_m > 0.0 && spec.reach_m >= spec.full_m);
   const double base_z_m = spec.base_z_m.value_or(BaseOf(axis) - (axis.empty() ? 0.0 : spec.below_m));
@@ -199,13 +208,7 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const AxisPoin
   pool.ParallelFor(static_cast<std::size_t>(spec.columns), [&](std::size_t begin, std::size_t end) {
     for (std::size_t column = begin; column < end; ++column) fill(static_cast<int>(column));
   });
-  const terrain::ElevationGrid::Frame frame{spec.columns,
-                                            spec.rows,
-                                            spec.west_m,
-                                            spec.south_m,
-                                            spec.west_m + (spec.columns - 1) * spec.spacing_m,
-                                            spec.south_m + (spec.rows - 1) * spec.spacing_m};
-  return terrain::ElevationGrid(frame, std::move(heights), spec.projection_wkt);
+  return terrain::ElevationGrid(FrameOf(spec), std::move(heights), spec.projection_wkt);
 }
 
 }  // namespace rodeira::road

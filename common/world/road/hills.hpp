@@ -54,6 +54,9 @@ std::vector<AxisPoint> AxisPoints(const network::Network& network, bool structur
 // changed a little; 0 without any road.
 double BaseOf(std::span<const AxisPoint> axis);
 
+// Where the terrain's posts stand.
+terrain::ElevationGrid::Frame FrameOf(const HillsSpec& spec);
+
 // The terrain: the mean of the roads' heights, less below_m, each point of their axes weighted by its length times (1 -
 // (d / reach)^2)^3 / (d^2 + flat^2)^2 of its distance d, by nothing from reach_m on, and of base_z_m, weighted by 4 /
 // reach^3, which is about as much as a straight road half of reach_m away counts; plus the relief, which grows from

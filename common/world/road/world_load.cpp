@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "common/core/base/file_cache.hpp"
 #include "common/core/config/config.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/network_world.hpp"
@@ -8,9 +9,9 @@
 namespace rodeira::road {
 namespace {
 
-base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File>& file) {
+base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File>& file, base::FileCache* cache) {
   if (!file) return file.error();
-  WorldReading reading = ReadWorld(file.value());
+  WorldReading reading = ReadWorld(file.value(), cache);
   if (!reading.spec) return reading.problems.front();
   return World::Make(std::move(*reading.spec));
 }
@@ -20,14 +21,14 @@ base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File
 base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) {
   if (auto other = WhatWorldsName(world_yaml)) return *std::move(other);
   const bool is_map = IsTrafficMap(world_yaml);
-  if (!is_map && !IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml));
+  if (!is_map && !IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml), &base::UserCache());
   auto spec = is_map ? ReadMapWorld(world_yaml) : ReadNetworkWorld(world_yaml);
   if (!spec) return spec.error();
   return Make(std::move(spec).value());
 }
 
 base::Result<std::shared_ptr<const World>> World::Parse(std::string_view text, const std::filesystem::path& name) {
-  return Build(config::File::Parse(text, name));
+  return Build(config::File::Parse(text, name), nullptr);
 }
 
 }  // namespace rodeira::road

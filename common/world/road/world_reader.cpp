@@ -10,6 +10,7 @@
 #include "common/core/config/either.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/world/design/design_reader.hpp"
+#include "common/world/road/hills_cache.hpp"
 #include "common/world/road/named_network.hpp"
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/picture_reader.hpp"
@@ -152,6 +153,7 @@ struct Keys {
   bool second = false;  // version 2: the roads are read by common/world/design
   design::StartSpec start;
   std::vector<base::Error> missing;
+  base::FileCache* cache = nullptr;
 };
 
 Keys ReadKeys(const Map& root) {
@@ -253,8 +255,7 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
 }
 
 // The terrain's file or hills; false, and a problem, where the file cannot be read.
-template <class Axis>
-bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
+bool PutTerrain(Keys& keys, std::span<const AxisPoint> axis, WorldReading& reading) {
   if (keys.elevation_file) {
     auto loaded = terrain::LoadGround(*keys.elevation_file, keys.registration);
     if (!loaded) {
@@ -277,7 +278,7 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
                                                    : "they are taken for those of the UTM zone that it names"));
     }
   } else if (keys.hills) {
-    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
+    keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHillsOnce(*keys.hills, axis, keys.cache));
   }
   SpreadPicture(keys.spec);
   return true;
@@ -297,7 +298,7 @@ design::TerrainIsAt TerrainOf(const Keys& keys) {
 WorldReading ReadSecond(const config::File& file, Keys keys) {
   const Map root = file.root();
   WorldReading reading;
-  if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
+  if (keys.elevation_file && !PutTerrain(keys, {}, reading)) return reading;
   const std::string projection = keys.hills                  ? keys.hills->projection_wkt
                                  : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt()
                                                              : "";
@@ -346,7 +347,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
 
 }  // namespace
 
-WorldReading ReadWorld(const config::File& file) {
+WorldReading ReadWorld(const config::File& file, base::FileCache* cache) {
   const Map root = file.root();
   if (const std::string version = root.Peek({"rodeira"}).value_or(kVersion);
       version != kVersion && version != kFirstVersion) {
@@ -357,6 +358,7 @@ WorldReading ReadWorld(const config::File& file) {
     return reading;
   }
   Keys keys = ReadKeys(root);
+  keys.cache = cache;
   if (keys.network_file) return ReadNamedNetwork(file, *keys.network_file, std::move(keys.spec), keys.start);
   if (keys.second) return ReadSecond(file, std::move(keys));
   WorldReading reading;
@@ -365,14 +367,14 @@ WorldReading ReadWorld(const config::File& file) {
   if (!reading.problems.empty()) return reading;
 
   if (keys.elevation_file) {
-    if (!PutTerrain(keys, std::span<const Road>(), reading)) return reading;
+    if (!PutTerrain(keys, {}, reading)) return reading;
     if (keys.move) {
       for (RoadSpec& road : keys.roads) keys.move(road.start_W, road.heading_rad);
     }
   }
   std::vector<Road> roads;
   for (const RoadSpec& road : keys.roads) roads.emplace_back(road);
-  if (keys.hills && !PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
+  if (keys.hills && !PutTerrain(keys, AxisPoints(roads), reading)) return reading;
   PutStart(root, roads, keys.spec, keys.move, keys.spec.start);
   for (std::size_t i = 0; i < roads.size(); ++i)
     CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));

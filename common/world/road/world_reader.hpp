@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/core/base/file_cache.hpp"
 #include "common/core/base/result.hpp"
 #include "common/core/config/config.hpp"
 #include "common/world/road/hills.hpp"
@@ -23,7 +24,7 @@ struct WorldReading {
 };
 
 // Reads a world file (docs/reference/world-files.md) with the files that it names, makes its hills, and checks that all
-// fits together.
-WorldReading ReadWorld(const config::File& file);
+// fits together. `cache`: of hills; null: none.
+WorldReading ReadWorld(const config::File& file, base::FileCache* cache = nullptr);
 
 }  // namespace rodeira::road

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "common/core/base/temporary_folder.hpp"
+#include "common/world/road/hills_cache.hpp"
 #include "common/world/terrain/bt.hpp"
 #include "tests/common/world/road/sample_world.hpp"
 
@@ -237,6 +241,48 @@ TEST(Hills, LayersAreNoCopiesOfOneAnother) {
   for (std::size_t i = 0; i < a.heights_m().size(); ++i)
     difference = std::max(difference, std::fabs(double{a.heights_m()[i]} - double{b.heights_m()[i]}));
   EXPECT_GT(difference, 5.0);
+}
+
+// With one cache for all: what is found is of the very same arguments.
+TEST(Hills, FromACacheAreThoseThatAreMadeWhateverOneArgumentIs) {
+  const auto folder = base::TemporaryFolder::Make("hills-cache").value();
+  base::FileCache cache(folder.path() / "cache");
+  std::vector<AxisPoint> axis = AxisPoints(SampleRoad().Alone());
+  const auto check = [&](const HillsSpec& spec) {
+    const auto made = terrain::BtBytes(MakeHills(spec, axis));
+    for (int time = 0; time < 2; ++time) EXPECT_EQ(terrain::BtBytes(MakeHillsOnce(spec, axis, &cache)), made);
+    EXPECT_EQ(terrain::BtBytes(MakeHillsOnce(spec, axis, nullptr)), made);
+    return base::Hash(made);
+  };
+  std::set<base::Digest> all{check(Spec())};
+  const auto change = [&](const auto& set) {
+    HillsSpec spec = Spec();
+    set(spec);
+    all.insert(check(spec));
+  };
+  change([](HillsSpec& s) { s.seed = 12; });
+  change([](HillsSpec& s) { s.columns = 80; });
+  change([](HillsSpec& s) { s.columns = 61, s.rows = 81; });
+  change([](HillsSpec& s) { s.west_m += 1.0; });
+  change([](HillsSpec& s) { s.south_m += 1.0; });
+  change([](HillsSpec& s) { s.spacing_m = 6.5; });
+  change([](HillsSpec& s) { s.base_z_m = 51.0; });
+  change([](HillsSpec& s) { s.base_z_m.reset(); });
+  change([](HillsSpec& s) { s.below_m = 0.6; });
+  change([](HillsSpec& s) { s.flat_m = 11.0; });
+  change([](HillsSpec& s) { s.full_m = 61.0; });
+  change([](HillsSpec& s) { s.reach_m = 181.0; });
+  change([](HillsSpec& s) { s.relief[0].wavelength_m = 101.0; });
+  change([](HillsSpec& s) { s.relief[1].amplitude_m = 6.0; });
+  change([](HillsSpec& s) { s.relief.pop_back(); });
+  axis[3].p_W.z() += 0.5;
+  all.insert(check(Spec()));
+  axis[3].length_m *= 2.0;
+  all.insert(check(Spec()));
+  EXPECT_EQ(all.size(), 18u);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "cache"))
+    std::filesystem::resize_file(entry.path(), std::filesystem::file_size(entry.path()) - 1);
+  check(Spec());
 }
 
 }  // namespace
