@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/base/assert.hpp"
+#include "nodes/view/paging/cached_tiles.hpp"
 #include "nodes/view/paging/database_tiles.hpp"
 #include "nodes/view/paging/ground_nodes.hpp"
 
@@ -45,10 +46,11 @@ class MakeWhatIsAsked : public osgDB::ReadFileCallback {
 
 }  // namespace
 
-PagedWorld BuildVisualWorld(const road::World& world, MaterialLibrary& look, scene::ModelIsThere is_there) {
+PagedWorld BuildVisualWorld(const road::World& world, MaterialLibrary& look, scene::ModelIsThere is_there,
+                            base::FileCache* cache) {
   RODEIRA_ASSERT(world.network() != nullptr);
   look.MakeStates();
-  std::unique_ptr<const DatabaseTiles> tiles = TilesOf(world, 0, std::move(is_there));
+  std::unique_ptr<const DatabaseTiles> tiles = CachedTilesOf(world, 0, std::move(is_there), cache);
   std::vector<TileFiles> files;
   for (std::size_t tile = 0; tile < tiles->count(); ++tile) files.push_back(tiles->FilesOf(tile));
   PagedWorld paged = PagedTree(files);

@@ -19,6 +19,7 @@
 #include <set>
 #include <thread>
 
+#include "common/core/base/file_cache.hpp"
 #include "common/core/base/log.hpp"
 #include "common/view/scene/terrain/far_plane.hpp"
 #include "nodes/view/dynamic_objects/cabin_node.hpp"
@@ -145,7 +146,7 @@ base::Result<std::unique_ptr<Renderer>> Renderer::Make(Surface& surface, const r
 std::unique_ptr<Renderer> Renderer::Make(Surface& surface, const road::World& world, scene::ModelIsThere is_there,
                                          bool repeats) {
   std::unique_ptr<Renderer> renderer(new Renderer(surface, world, repeats));
-  renderer->Lay(BuildVisualWorld(world, renderer->parts_->look, std::move(is_there)));
+  renderer->Lay(BuildVisualWorld(world, renderer->parts_->look, std::move(is_there), &base::UserCache()));
   renderer->parts_->viewer.getDatabasePager()->setUpThreads(std::max(1u, std::thread::hardware_concurrency()), 0);
   return renderer;
 }
