@@ -34,6 +34,7 @@ std::vector<Shown> Watch(double rate, double jitter_s, double until_s, double pa
     }
     if (k > 0) shown.push_back({wall, clock.Now(wall), newest});
   }
+  EXPECT_GT(shown.size(), static_cast<std::size_t>(59.0 * until_s) - 20);
   return shown;
 }
 
@@ -44,6 +45,7 @@ TEST(DisplayClock, NeverAheadNeverBackward) {
       EXPECT_LE(shown[i].sample_s, shown[i].newest_s + 1e-12);
       EXPECT_GE(shown[i].sample_s, shown[i - 1].sample_s - 1e-12) << rate << " at " << shown[i].wall_s;
     }
+    EXPECT_NEAR(shown.back().sample_s, rate * 17.0, rate * 0.5) << "20 s with a pause of 3 s";
   }
 }
 
@@ -84,6 +86,7 @@ TEST(DisplayClock, StandsDuringAPauseAndFindsBack) {
       EXPECT_NEAR(at.wall_s - 5.0 - at.sample_s, 0.02, 0.02);
     }
   }
+  EXPECT_NEAR(at_pause, 10.0, 0.05);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 
 // Whatever the weather was, what is asked for by a word is there at the end, and it comes evenly.
 TEST(NamedWeather, EachBecomesTheSameFromWhateverWasBefore) {
+  ASSERT_FALSE(NamedWeathers().empty());
   for (const NamedWeather& named : NamedWeathers()) {
     for (const NamedWeather& before : NamedWeathers()) {
       WeatherPlan plan;
