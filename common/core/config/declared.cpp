@@ -28,6 +28,12 @@ double DeclaredMap::Number(std::string_view key, double default_value) const {
   return map_.Number(key, declared.range, default_value);
 }
 
+double DeclaredMap::RequiredNumber(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kNumber);
+  RODEIRA_ASSERT(declared.required || std::holds_alternative<std::monostate>(declared.default_value));
+  return map_.Number(key, declared.range);
+}
+
 std::optional<double> DeclaredMap::OptionalNumber(std::string_view key) const {
   const Key& declared = Declared(key, ValueType::kNumber);
   RODEIRA_ASSERT(!declared.required && std::holds_alternative<std::monostate>(declared.default_value));
@@ -43,6 +49,14 @@ std::int64_t DeclaredMap::Integer(std::string_view key) const {
   const std::int64_t* default_value = std::get_if<std::int64_t>(&declared.default_value);
   RODEIRA_ASSERT(default_value != nullptr);
   return map_.Integer(key, low, high, *default_value);
+}
+
+std::optional<std::int64_t> DeclaredMap::OptionalInteger(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kInteger);
+  RODEIRA_ASSERT(!declared.required && std::holds_alternative<std::monostate>(declared.default_value));
+  if (!map_.Has(key)) return std::nullopt;
+  return map_.Integer(key, static_cast<std::int64_t>(declared.range.low),
+                      static_cast<std::int64_t>(declared.range.high));
 }
 
 bool DeclaredMap::Flag(std::string_view key) const {
@@ -73,6 +87,12 @@ std::string DeclaredMap::Word(std::string_view key) const {
   return map_.Choice(key, declared.words, *default_value);
 }
 
+std::string DeclaredMap::Word(std::string_view key, std::string_view default_value) const {
+  const Key& declared = Declared(key, ValueType::kWord);
+  RODEIRA_ASSERT(!declared.required && !declared.default_note.empty());
+  return map_.Choice(key, declared.words, default_value);
+}
+
 DeclaredMap DeclaredMap::Child(std::string_view key) const {
   const Key* found = FindKey(*keys_, key);
   RODEIRA_ASSERT(found != nullptr && (found->type == ValueType::kMapping || found->type == ValueType::kOther));
@@ -93,6 +113,24 @@ std::vector<double> DeclaredMap::Numbers(std::string_view key) const {
   return values;
 }
 
+std::vector<double> DeclaredMap::RequiredNumbers(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kList);
+  RODEIRA_ASSERT(declared.of.size() == 1 && declared.of.front().type == ValueType::kNumber);
+  return map_.Numbers(key, declared.of.front().range);
+}
+
+DeclaredMap DeclaredMap::OfKind(std::string_view kind) const { return {map_, Declared(kind, ValueType::kMapping).of}; }
+
+std::vector<std::pair<std::string, double>> DeclaredMap::NamedNumbers(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kNamed);
+  RODEIRA_ASSERT(declared.of.size() == 1 && declared.of.front().type == ValueType::kNumber);
+  const Map names = declared.required ? map_.Child(key) : map_.OptionalChild(key);
+  std::vector<std::pair<std::string, double>> entries;
+  for (const std::string& name : names.Keys())
+    entries.emplace_back(name, names.Number(name, declared.of.front().range));
+  return entries;
+}
+
 const Map& DeclaredMap::MapWith(std::string_view key) const {
   RODEIRA_ASSERT(FindKey(*keys_, key) != nullptr);
   return map_;
@@ -100,7 +138,8 @@ const Map& DeclaredMap::MapWith(std::string_view key) const {
 
 std::vector<std::pair<std::string, DeclaredMap>> DeclaredMap::Named(std::string_view key) const {
   const Key& declared = Declared(key, ValueType::kNamed);
-  RODEIRA_ASSERT(declared.of.size() == 1 && declared.of.front().type == ValueType::kMapping);
+  RODEIRA_ASSERT(declared.of.size() == 1);
+  RODEIRA_ASSERT(declared.of.front().type == ValueType::kMapping || declared.of.front().type == ValueType::kKinds);
   const Map names = declared.required ? map_.Child(key) : map_.OptionalChild(key);
   std::vector<std::pair<std::string, DeclaredMap>> entries;
   for (const std::string& name : names.Keys())
@@ -109,7 +148,7 @@ std::vector<std::pair<std::string, DeclaredMap>> DeclaredMap::Named(std::string_
 }
 
 DeclaredMap DeclaredList::At(std::size_t index) const {
-  RODEIRA_ASSERT(item_->type == ValueType::kMapping);
+  RODEIRA_ASSERT(item_->type == ValueType::kMapping || item_->type == ValueType::kKinds);
   return {list_.At(index), item_->of};
 }
 

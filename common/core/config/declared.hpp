@@ -23,22 +23,34 @@ class DeclaredMap {
   double Number(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedNumberKey.
   double Number(std::string_view key, double default_value) const;
+  // A number without a default of its own that this file needs, because of its other keys.
+  double RequiredNumber(std::string_view key) const;
   // Nothing if the key is absent; only for an OptionalNumberKey.
   std::optional<double> OptionalNumber(std::string_view key) const;
   std::int64_t Integer(std::string_view key) const;
+  // Nothing if the key is absent; only for an OptionalIntegerKey.
+  std::optional<std::int64_t> OptionalInteger(std::string_view key) const;
   bool Flag(std::string_view key) const;
   std::string Text(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedTextKey.
   std::string Text(std::string_view key, std::string_view default_value) const;
   std::string Word(std::string_view key) const;
+  // The default is computed by the caller; only for a word with a default in words.
+  std::string Word(std::string_view key, std::string_view default_value) const;
   // One without keys if it is absent, which is a problem where it is required.
   DeclaredMap Child(std::string_view key) const;
-  // Mappings by name, in the order of the file.
+  // Mappings by name, in the order of the file. Of one with kinds, Word says which it is.
   std::vector<std::pair<std::string, DeclaredMap>> Named(std::string_view key) const;
+  // The same mapping, which has kinds, with the keys of this one.
+  DeclaredMap OfKind(std::string_view kind) const;
+  // Numbers by name, in the order of the file.
+  std::vector<std::pair<std::string, double>> NamedNumbers(std::string_view key) const;
   // Empty if it is absent, which is a problem where it is required. The caller checks the number of items.
   DeclaredList Items(std::string_view key) const;
   // The items of a list of numbers.
   std::vector<double> Numbers(std::string_view key) const;
+  // The items of a list of numbers that this file needs, because of its other keys.
+  std::vector<double> RequiredNumbers(std::string_view key) const;
 
   // The mapping with a declared key, for a function that reads this key by itself, with checks of its own.
   const Map& MapWith(std::string_view key) const;

@@ -45,6 +45,12 @@ Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, st
           Range{static_cast<double>(low), static_cast<double>(high)}};
 }
 
+Key OptionalIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning) {
+  Key key = RequiredIntegerKey(std::move(name), low, high, std::move(meaning));
+  key.required = false;
+  return key;
+}
+
 Key FlagKey(std::string name, bool default_value, std::string meaning) {
   return {std::move(name), ValueType::kFlag, std::move(meaning), false, {}, default_value};
 }
@@ -92,6 +98,17 @@ Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning) {
 Key NamedValueKey(std::string name, Key value, std::string meaning) {
   Key key{std::move(name), ValueType::kNamed, std::move(meaning)};
   key.of.push_back(std::move(value));
+  return key;
+}
+
+Key KindsItem(Key word, std::vector<Key> kinds) {
+  RODEIRA_ASSERT(word.type == ValueType::kWord && word.words.size() == kinds.size());
+  Key key{"", ValueType::kKinds, ""};
+  key.of.push_back(std::move(word));
+  for (Key& kind : kinds) {
+    RODEIRA_ASSERT(kind.type == ValueType::kMapping && kind.name == key.of.front().words[key.of.size() - 1]);
+    key.of.push_back(std::move(kind));
+  }
   return key;
 }
 
@@ -181,6 +198,11 @@ void CollectValues(const Key& key, const std::string& path, const Key* container
       return;
     case ValueType::kList:
       CollectValues(key.of.front(), path + "[]", &key, brief, out);
+      return;
+    case ValueType::kKinds:
+      CollectValues(key.of.front(), path + "." + key.of.front().name, nullptr, brief, out);
+      for (std::size_t i = 1; i < key.of.size(); ++i)
+        CollectValues(key.of[i], path + "(" + key.of[i].name + ")", nullptr, brief, out);
       return;
     case ValueType::kOther:
       out.push_back({path, &key, container});

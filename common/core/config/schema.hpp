@@ -24,6 +24,7 @@ enum class ValueType {
   kMapping,  // the keys that `of` declares
   kNamed,    // a mapping with free names as keys; `of` holds the declaration of each value
   kList,     // `of` holds the declaration of each item
+  kKinds,    // a mapping with a word, `of[0]`, that says which other keys it has: those of the kMapping of this name
   kOther,    // what `form` says, or a mapping with the keys of `of`; a reader of its own checks it
 };
 
@@ -42,7 +43,8 @@ struct Key {
   std::vector<std::string> words{};  // of kWord
   std::vector<Key> of{};
   std::string sample{};       // a valid value as YAML, where type and range do not give one; of kNamed: a valid name;
-                              // of kMapping: not empty, if generated files have the mapping though it is optional
+                              // of kMapping: not empty, if generated files have the mapping though it is optional;
+                              // of kList: the value of generated files, where no item is tried
   std::string form{};         // of kOther, in words: "a number or a list of [s_m, width_m]"
   std::string summary{};      // of kMapping, kWord: not empty, if the reference shows this instead of keys and words
   std::size_t min_items = 0;  // of kList
@@ -55,6 +57,7 @@ struct Schema {
   std::string format;   // "driver/1", the value of the key `rodeira`
   std::string meaning;  // one sentence
   std::vector<Key> keys;
+  bool is_open = false;  // the file has other keys, too, of another reader
 };
 
 // Declarations. A number or a whole number with a default is optional, the others say so.
@@ -66,6 +69,8 @@ Key ComputedNumberKey(std::string name, Range range, std::string default_note, s
 Key OptionalNumberKey(std::string name, Range range, std::string meaning);
 Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t default_value, std::string meaning);
 Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning);
+// A whole number that may be absent.
+Key OptionalIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning);
 Key FlagKey(std::string name, bool default_value, std::string meaning);
 Key TextKey(std::string name, std::string default_value, std::string meaning);
 // `sample` is a text that the reader takes, as YAML.
@@ -79,6 +84,9 @@ Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning);
 // A mapping of names to mappings with the keys; of names to values.
 Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning);
 Key NamedValueKey(std::string name, Key value, std::string meaning);
+// A value of kNamed or an item of a list: a mapping whose key `word` says which of `kinds`, a MappingKey each, it is.
+// Words of `word` are the names of the kinds; it is required unless it has a default.
+Key KindsItem(Key word, std::vector<Key> kinds);
 Key ListKey(std::string name, Key item, std::string meaning);
 // A list of mappings with the keys.
 Key ListKey(std::string name, std::vector<Key> keys, std::string meaning);
@@ -104,7 +112,8 @@ std::vector<Key> FileKeys(const std::string& format, std::vector<Key> keys);
 // The key of that name; null without one.
 const Key* FindKey(const std::vector<Key>& keys, std::string_view name);
 
-// A declaration with its place in the file: "following.time_gap_s", "hosts.NAME.address", "events[].at_s".
+// A declaration with its place in the file: "following.time_gap_s", "hosts.NAME.address", "events[].at_s"; a key that
+// only one kind of mapping has: "forces.NAME(spring).preload_N".
 struct PlacedKey {
   std::string path;
   const Key* key;

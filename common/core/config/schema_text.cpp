@@ -22,16 +22,16 @@ std::string JsonOf(const DefaultValue& value) {
 std::string JsonValue(const Key& key, const std::string& indent);
 
 // The members of the object that describes a mapping with the keys.
-std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent) {
+std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent, bool is_open = false) {
   std::vector<std::string> properties, required;
   for (const Key& key : keys) {
     properties.push_back(fmt::format("{}  {}: {}", indent, base::JsonText(key.name), JsonValue(key, indent + "  ")));
     if (key.required) required.push_back(base::JsonText(key.name));
   }
   return fmt::format(
-      "{0}\"type\": \"object\",\n{0}\"properties\": {{\n{1}\n{0}}},\n{2}{0}\"additionalProperties\": false", indent,
+      "{0}\"type\": \"object\",\n{0}\"properties\": {{\n{1}\n{0}}},\n{2}{0}\"additionalProperties\": {3}", indent,
       fmt::join(properties, ",\n"),
-      required.empty() ? "" : fmt::format("{}\"required\": [{}],\n", indent, fmt::join(required, ", ")));
+      required.empty() ? "" : fmt::format("{}\"required\": [{}],\n", indent, fmt::join(required, ", ")), is_open);
 }
 
 std::string JsonValue(const Key& key, const std::string& indent) {
@@ -57,7 +57,10 @@ std::string JsonValue(const Key& key, const std::string& indent) {
       break;
     case ValueType::kWord: {
       std::vector<std::string> words;
-      for (const std::string& word : key.words) words.push_back(base::JsonText(word));
+      for (const std::string& word : key.words) {
+        words.push_back(base::JsonText(word));
+        if (word == "true" || word == "false") words.push_back(word);  // as YAML reads it
+      }
       members.push_back(fmt::format("{}\"enum\": [{}]", inner, fmt::join(words, ", ")));
       break;
     }
@@ -75,6 +78,18 @@ std::string JsonValue(const Key& key, const std::string& indent) {
       if (key.max_items < std::numeric_limits<std::size_t>::max())
         members.push_back(fmt::format("{}\"maxItems\": {}", inner, key.max_items));
       break;
+    case ValueType::kKinds: {
+      std::vector<std::string> kinds;
+      for (std::size_t i = 1; i < key.of.size(); ++i) {
+        std::vector<Key> keys{key.of.front()};
+        keys.front().words = {key.of[i].name};
+        keys.front().default_value = {};
+        keys.insert(keys.end(), key.of[i].of.begin(), key.of[i].of.end());
+        kinds.push_back(fmt::format("{0}  {{\n{1}\n{0}  }}", inner, JsonMapping(keys, inner + "    ")));
+      }
+      members.push_back(fmt::format("{0}\"anyOf\": [\n{1}\n{0}]", inner, fmt::join(kinds, ",\n")));
+      break;
+    }
     case ValueType::kOther:
       break;
   }
@@ -116,7 +131,8 @@ std::string SchemaJson(const Schema& schema) {
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": {},\n  \"description\": {},\n"
       "{}\n}}\n",
-      base::JsonText("Rodeira " + schema.format), base::JsonText(schema.meaning), JsonMapping(schema.keys, "  "));
+      base::JsonText("Rodeira " + schema.format), base::JsonText(schema.meaning),
+      JsonMapping(schema.keys, "  ", schema.is_open));
 }
 
 }  // namespace rodeira::config

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "common/core/base/shared_object.hpp"
+#include "common/core/config/declared.hpp"
+#include "common/vehicle/dynamics/vehicle_schema.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -81,7 +83,8 @@ class LibraryModel final : public VehicleModel {
 std::string VehicleBuild() { return base::BuildText(LayoutOfVehicles()); }
 
 std::unique_ptr<VehicleModel> MakeFromLibrary(const config::Map& root) {
-  const std::filesystem::path path = root.Path("library");
+  const config::DeclaredMap declared(root, LibrarySchema().keys);
+  const std::filesystem::path path = declared.MapWith("library").Path("library");
   if (path.empty()) return nullptr;  // the missing key is told already
   const auto entry =
       base::LoadSharedObject(path, {kVehicleBuildEntry, kVehicleMakeEntry, "RODEIRA_VEHICLE"}, VehicleBuild());

@@ -6,6 +6,7 @@
 
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/bicycle_settings.hpp"
+#include "common/vehicle/dynamics/multibody_settings.hpp"
 #include "common/vehicle/dynamics/ode_settings.hpp"
 #include "common/vehicle/dynamics/vehicle_schema.hpp"
 
@@ -271,6 +272,40 @@ const std::vector<Key>& OdeKeys() {
                                            "From the road to the underside of the body; below its height.")),
       RequiredNumberKey("body_friction", {0.0, 2.0}, "Friction of the body on what it touches."),
       NumberKey("longest_substep_s", {1e-5, 0.005}, ode.longest_substep_s, "Longer steps are divided.")};
+  return keys;
+}
+
+const std::vector<Key>& ChassisKeys() {
+  static const std::vector<Key> keys{
+      config::RequiredTextKey("chassis", "chassis", "Body of the mechanism, a general one."),
+      RequiredNumberKey("drag_area_m2", config::Range::NotNegative(), "Drag coefficient times area."),
+      NumberKey("air_density_kgpm3", {0.0, 3.0}, MultibodySettings{}.air_density_kgpm3, "Density of the air."),
+      RequiredNumberKey("drag_height_m", {0.0, 5.0}, "Where the drag acts, above the road as drawn.")};
+  return keys;
+}
+
+const std::vector<Key>& HungWheelKeys() {
+  using config::RequiredTextKey;
+  static const std::vector<Key> keys{RequiredTextKey("carrier", "chassis", "Body that holds the hub, a general one."),
+                                     RequiredTextKey("centre", "hub", "Point in the middle of the wheel."),
+                                     RequiredTextKey("axle", "axle", "Vector of the axle, drawn to the left."),
+                                     RequiredTextKey("suspension", "spring", "Force of the spring."),
+                                     RequiredTextKey("travel", "strut", "Distance or angle that is the travel.")};
+  return keys;
+}
+
+const std::vector<Key>& ColumnKeys() {
+  static const std::vector<Key> keys{
+      config::RequiredTextKey("angle", "pinion", "Angle of the column's lower end, left positive."),
+      RequiredNumberKey("ratio", {1.0, 50.0}, "Angle of the steering wheel over that of the front wheels."),
+      RequiredNumberKey("wheel_limit_rad", {0.1, 50.0}, "Lock of the steering wheel, each side."),
+      RequiredNumberKey("column_Nmprad", {1.0, 1e6}, "Stiffness of the column."),
+      RequiredNumberKey("column_Nmsprad", {0.0, 1e5}, "Damping of the column.")};
+  return keys;
+}
+
+const std::vector<Key>& OuterDimensionKeys() {
+  static const std::vector<Key> keys(DimensionKeys().begin() + 2, DimensionKeys().end());
   return keys;
 }
 

@@ -7,9 +7,12 @@
 
 namespace rodeira::dynamics {
 
-// The keys of `rodeira: vehicle/1` for the models `bicycle` and `ode`; for the model `fmu`.
+// The keys of `rodeira: vehicle/1` for the models `bicycle` and `ode`, and for each other model. A file of the model
+// `library` has the keys of its shared object, too.
 const config::Schema& VehicleSchema();
+const config::Schema& MultibodySchema();
 const config::Schema& FmuSchema();
+const config::Schema& LibrarySchema();
 
 // The keys of each part.
 const std::vector<config::Key>& BodyKeys();
@@ -28,6 +31,11 @@ const std::vector<config::Key>& SlipCurveKeys();
 const std::vector<config::Key>& TyreKeys();
 const std::vector<config::Key>& OdeKeys();
 const std::vector<config::Key>& FmuDimensionKeys();
+// Of the model `multibody`.
+const std::vector<config::Key>& ChassisKeys();
+const std::vector<config::Key>& HungWheelKeys();
+const std::vector<config::Key>& ColumnKeys();
+const std::vector<config::Key>& OuterDimensionKeys();
 // Coefficients of the Magic Formula with those of its aligning moment; of the aligning moment alone.
 const std::vector<config::Key>& FormulaKeys();
 const std::vector<config::Key>& AligningKeys();

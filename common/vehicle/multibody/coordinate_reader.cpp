@@ -10,34 +10,34 @@
 namespace rodeira::multibody {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 
 constexpr double kShort = 1e-9;
 
 }  // namespace
 
-void DrawingReader::ReadAngles(const Map& root) {
-  const Map angles = root.OptionalChild("angles");
-  for (const std::string& name : angles.Keys()) {
-    const Map map = angles.Child(name);
+void DrawingReader::ReadAngles(const DeclaredMap& root) {
+  const Map angles = root.map().OptionalChild("angles");
+  for (const auto& [name, declared] : root.Named("angles")) {
+    const Map& map = declared.map();
+    const std::optional<double> rate_radps = declared.OptionalNumber("rate_radps");
     if (map.Has("rotor_kgm2")) {  // an angle of its own: a wheel of a gear train, a steering column
-      const double inertia = map.Number("rotor_kgm2", {1e-12, 1e9});
-      const double start = map.Number("at_rad", {-1e6, 1e6}, 0.0);
-      const double speed = map.Number("rate_radps", {-1e6, 1e6}, 0.0);
+      const double inertia = declared.RequiredNumber("rotor_kgm2");
+      const double start = declared.Number("at_rad");
       if (!IsNew(angles, name)) continue;
       const int rotor = AddEntity(angles, name, EntityKind::kAngle, {start, 0.0, 0.0});
       drawing_.entities.back().inertia = inertia;
-      if (map.Has("rate_radps")) drawing_.velocities.push_back({rotor, 0, speed, map.Place("rate_radps")});
+      if (rate_radps) drawing_.velocities.push_back({rotor, 0, *rate_radps, map.Place("rate_radps")});
       continue;
     }
-    const auto of = Direction(map, "of");
+    const auto of = Direction(declared, "of");
     std::optional<Form> from = Single(world_x_);
     std::optional<Form> to = Single(world_y_);
     if (map.Has("from") || map.Has("to") || !planar_) {
-      from = Direction(map, "from");
-      to = Direction(map, "to");
+      from = Direction(declared, "from");
+      to = Direction(declared, "to");
     }
-    const double rate = map.Number("rate_radps", {-1e6, 1e6}, 0.0);
     if (!of || !from || !to || !IsNew(angles, name)) continue;
     RowDrawing row;
     row.name = name + " (angle)";
@@ -55,18 +55,18 @@ void DrawingReader::ReadAngles(const Map& root) {
     row.scale = 1.0 / std::hypot(u.dot(v), u.dot(w));
     row.coordinate = AddEntity(angles, name, EntityKind::kAngle, {std::atan2(u.dot(w), u.dot(v)), 0.0, 0.0});
     drawing_.rows.push_back(row);
-    if (map.Has("rate_radps")) drawing_.velocities.push_back({row.coordinate, 0, rate, map.Place("rate_radps")});
+    if (rate_radps) drawing_.velocities.push_back({row.coordinate, 0, *rate_radps, map.Place("rate_radps")});
   }
 }
 
-void DrawingReader::ReadDistances(const Map& root) {
-  const Map distances = root.OptionalChild("distances");
-  for (const std::string& name : distances.Keys()) {
-    const Map map = distances.Child(name);
-    const auto points = TwoPoints(map, "points");
+void DrawingReader::ReadDistances(const DeclaredMap& root) {
+  const Map distances = root.map().OptionalChild("distances");
+  for (const auto& [name, declared] : root.Named("distances")) {
+    const Map& map = declared.map();
+    const auto points = TwoPoints(declared, "points");
     std::optional<Form> along;
-    if (map.Has("along")) along = Direction(map, "along");
-    const double rate = map.Number("rate_mps", {-1e6, 1e6}, 0.0);
+    if (map.Has("along")) along = Direction(declared, "along");
+    const std::optional<double> rate_mps = declared.OptionalNumber("rate_mps");
     if (!points || (map.Has("along") && !along) || !IsNew(distances, name)) continue;
     RowDrawing row;
     row.name = name + " (distance)";
@@ -95,7 +95,7 @@ void DrawingReader::ReadDistances(const Map& root) {
     }
     row.coordinate = AddEntity(distances, name, EntityKind::kDistance, {at, 0.0, 0.0});
     drawing_.rows.push_back(row);
-    if (map.Has("rate_mps")) drawing_.velocities.push_back({row.coordinate, 0, rate, map.Place("rate_mps")});
+    if (rate_mps) drawing_.velocities.push_back({row.coordinate, 0, *rate_mps, map.Place("rate_mps")});
   }
 }
 
@@ -114,37 +114,36 @@ std::optional<DrawingReader::Coordinate> DrawingReader::CoordinateNamed(const Ma
   return Coordinate{*entity, 0};
 }
 
-Law DrawingReader::ReadLaw(const Map& map, std::string_view value_key) const {
+Law DrawingReader::ReadLaw(const DeclaredMap& map, std::string_view value_key, std::optional<double> drawn) {
   Law law;
-  law.c0 = map.Number(value_key, {-1e12, 1e12}, 0.0);
-  law.c1 = map.Number("rate_per_s", {-1e12, 1e12}, 0.0);
-  law.c2 = map.Number("square_per_s2", {-1e12, 1e12}, 0.0);
-  const Map sine = map.OptionalChild("sine");
-  if (map.Has("sine")) {
-    law.amplitude = sine.Number("amplitude", {-1e12, 1e12});
-    law.frequency_Hz = sine.Number("frequency_Hz", {0.0, 1e5});
-    law.phase_rad = sine.Number("phase_rad", {-100.0, 100.0}, 0.0);
+  law.c1 = map.Number("rate_per_s");
+  law.c2 = map.Number("square_per_s2");
+  const DeclaredMap sine = map.Child("sine");
+  if (map.map().Has("sine")) {
+    law.amplitude = sine.Number("amplitude");
+    law.frequency_Hz = sine.Number("frequency_Hz");
+    law.phase_rad = sine.Number("phase_rad");
   }
+  law.c0 = drawn ? map.Number(value_key, *drawn - law.amplitude * std::sin(law.phase_rad)) : map.Number(value_key);
   return law;
 }
 
-void DrawingReader::ReadConstraints(const Map& root) {
-  const Map constraints = root.OptionalChild("constraints");
-  for (const std::string& name : constraints.Keys()) ReadConstraint(constraints, name);
+void DrawingReader::ReadConstraints(const DeclaredMap& root) {
+  for (const auto& [name, constraint] : root.Named("constraints")) ReadConstraint(constraint, name);
 }
 
-void DrawingReader::ReadConstraint(const Map& constraints, const std::string& name) {
-  const Map map = constraints.Child(name);
-  const std::string kind =
-      map.Choice("kind", {"distance", "perpendicular", "dot", "coplanar", "same", "drive", "linear"});
+void DrawingReader::ReadConstraint(const DeclaredMap& found, const std::string& name) {
+  const std::string kind = found.Word("kind");
+  const DeclaredMap declared = found.OfKind(kind);
+  const Map& map = declared.map();
   RowDrawing row;
   row.name = name;
-  row.place = constraints.Place(name);
+  row.place = map.Place();
   if (kind == "distance") {
-    const auto points = TwoPoints(map, "points");
+    const auto points = TwoPoints(declared, "points");
     if (!points) return;
     row.v = row.w = Sum((*points)[1], (*points)[0], -1.0);
-    const double length = map.Has("length_m") ? map.Number("length_m", {kShort, 1e6}) : Drawn(row.v).norm();
+    const double length = declared.Number("length_m", Drawn(row.v).norm());
     if (!(length >= kShort))
       return map.Problem("points", "mechanism.no_length",
                          "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
@@ -154,23 +153,21 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     return drawing_.rows.push_back(row);
   }
   if (kind == "perpendicular" || kind == "dot") {
-    const auto a = Direction(map, "a");
-    const auto b = Direction(map, "b");
+    const auto a = Direction(declared, "a");
+    const auto b = Direction(declared, "b");
     if (!a || !b) return;
     const double sizes = Drawn(*a).norm() * Drawn(*b).norm();
     if (!(sizes > kShort * kShort)) return map.Problem("a", "mechanism.no_length", "a direction has no length");
     row.v = *a;
     row.w = *b;
-    row.value = kind == "perpendicular"
-                    ? 0.0
-                    : (map.Has("value_m2") ? map.Number("value_m2", {-1e12, 1e12}) : Drawn(*a).dot(Drawn(*b)));
+    row.value = kind == "perpendicular" ? 0.0 : declared.Number("value_m2", Drawn(*a).dot(Drawn(*b)));
     row.scale = 1.0 / std::sqrt(sizes);
     return drawing_.rows.push_back(row);
   }
   if (kind == "coplanar") {
-    const auto a = Direction(map, "a");
-    const auto b = Direction(map, "b");
-    const auto c = Direction(map, "c");
+    const auto a = Direction(declared, "a");
+    const auto b = Direction(declared, "b");
+    const auto c = Direction(declared, "c");
     if (!a || !b || !c) return;
     const double sizes = Drawn(*a).norm() * Drawn(*b).norm() * Drawn(*c).norm();
     if (!(sizes > kShort * kShort * kShort))
@@ -184,7 +181,7 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
   }
   row.kind = RowKind::kSum;
   if (kind == "same") {
-    const auto points = TwoPoints(map, "points");
+    const auto points = TwoPoints(declared, "points");
     if (!points) return;
     for (int c = 0; c < (planar_ ? 2 : 3); ++c) {
       row.name = fmt::format("{} ({})", name, "xyz"[c]);
@@ -198,28 +195,26 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     return;
   }
   if (kind == "drive") {
-    const auto coordinate = CoordinateNamed(map, "coordinate", map.Text("coordinate"));
-    row.law = ReadLaw(map, "value");
+    const auto coordinate = CoordinateNamed(map, "coordinate", declared.Text("coordinate"));
+    const Coordinate known = coordinate.value_or(Coordinate{});
+    row.law = ReadLaw(declared, "value", at_[static_cast<std::size_t>(3 * known.entity + known.component)]);
     if (!coordinate) return;
-    if (!map.Has("value"))
-      row.law.c0 = at_[static_cast<std::size_t>(3 * coordinate->entity + coordinate->component)] -
-                   row.law.amplitude * std::sin(row.law.phase_rad);
     row.sum = {{coordinate->entity, Vector3d::Unit(coordinate->component)}};
     return drawing_.rows.push_back(row);
   }
-  const Map terms = map.Child("terms");
+  const auto factors = declared.NamedNumbers("terms");
+  const Map terms = map.OptionalChild("terms");
   double drawn = 0.0;
   double largest = 0.0;
-  for (const std::string& coordinate_name : terms.Keys()) {
-    const double factor = terms.Number(coordinate_name, {-1e6, 1e6});
+  for (const auto& [coordinate_name, factor] : factors) {
     const auto coordinate = CoordinateNamed(terms, coordinate_name, coordinate_name);
     if (!coordinate) return;
     row.sum.emplace_back(coordinate->entity, factor * Vector3d::Unit(coordinate->component));
     drawn += factor * at_[static_cast<std::size_t>(3 * coordinate->entity + coordinate->component)];
     largest = std::max(largest, std::fabs(factor));
   }
+  row.value = declared.Number("value", drawn);
   if (!(largest > 0.0)) return map.Problem("terms", "all terms are zero; a relation between coordinates was expected");
-  row.value = map.Has("value") ? map.Number("value", {-1e9, 1e9}) : drawn;
   for (auto& term : row.sum) term.second /= largest;
   row.value /= largest;
   drawing_.rows.push_back(row);

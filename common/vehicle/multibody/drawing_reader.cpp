@@ -7,30 +7,39 @@
 #include <cmath>
 
 #include "common/core/base/suggest.hpp"
+#include "common/vehicle/multibody/mechanism_schema.hpp"
 
 namespace rodeira::multibody {
 namespace {
 
+using config::DeclaredMap;
 using config::List;
 using config::Map;
-using config::Range;
 
-constexpr double kMaxLength_m = 1e6;
-constexpr double kMaxSpeed_mps = 1e6;
 constexpr std::size_t kMaxEntities = 3000;  // the initial position is solved with dense matrices
+
+// That a key names none of those that are known. A key that is missing is told by its reader.
+void TellUnknown(const Map& map, std::string_view key, const std::string& name, std::string_view what,
+                 const std::vector<std::string>& known) {
+  if (!map.Has(key)) return;
+  map.Problem(key, "config.unknown_name",
+              name.empty() ? fmt::format("'{}' names no {}", key, what)
+                           : fmt::format("'{}' is no {}{}", name, what, base::DidYouMean(name, known)));
+}
 
 }  // namespace
 
-DrawingReader::DrawingReader(const Map& root) {
-  drawing_.name = root.Text("name", "");
-  drawing_.place = root.Place();
-  planar_ = root.Flag("planar", false);
-  drawing_.redundant = root.Flag("redundant", false);
-  if (root.Has("gravity_mps2")) drawing_.gravity_mps2 = ThreeNumbers(root, "gravity_mps2", 1e4);
+DrawingReader::DrawingReader(const Map& map) {
+  const DeclaredMap root(map, MechanismKeys());
+  drawing_.name = root.Text("name");
+  drawing_.place = map.Place();
+  planar_ = root.Flag("planar");
+  drawing_.redundant = root.Flag("redundant");
+  if (map.Has("gravity_mps2")) drawing_.gravity_mps2 = ThreeNumbers(root, "gravity_mps2");
   for (const auto& [name, direction] :
        {std::pair("world x", Vector3d::UnitX()), std::pair("world y", Vector3d::UnitY()),
         std::pair("world z", Vector3d::UnitZ())}) {
-    const int entity = AddEntity(root, name, EntityKind::kVector, direction);
+    const int entity = AddEntity(map, name, EntityKind::kVector, direction);
     drawing_.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
     if (name == std::string("world x")) world_x_ = entity;
     if (name == std::string("world y")) world_y_ = entity;
@@ -44,18 +53,18 @@ DrawingReader::DrawingReader(const Map& root) {
   ReadConstraints(root);
   ReadForces(root);
   if (drawing_.entities.size() > kMaxEntities) {
-    root.Problem("points", "config.wrong_length",
-                 fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
-                             drawing_.entities.size(), kMaxEntities));
+    map.Problem("points", "config.wrong_length",
+                fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
+                            drawing_.entities.size(), kMaxEntities));
   }
 }
 
-Vector3d DrawingReader::ThreeNumbers(const Map& map, std::string_view key, double most) {
-  const std::vector<double> numbers = map.Numbers(key, {-most, most});
+Vector3d DrawingReader::ThreeNumbers(const DeclaredMap& map, std::string_view key) {
+  const std::vector<double> numbers = map.RequiredNumbers(key);
   if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
-  if (map.Has(key))
-    map.Problem(key, "config.wrong_length",
-                fmt::format("'{}' holds {} numbers; three were expected", key, numbers.size()));
+  if (map.map().Has(key))
+    map.map().Problem(key, "config.wrong_length",
+                      fmt::format("'{}' holds {} numbers; three were expected", key, numbers.size()));
   return Vector3d::Zero();
 }
 
@@ -79,33 +88,32 @@ int DrawingReader::AddEntity(const Map& map, const std::string& name, EntityKind
   return index;
 }
 
-void DrawingReader::ReadPoints(const Map& root) {
-  const Map points = root.Child("points");
-  for (const std::string& name : points.Keys()) {
-    const Map map = points.Child(name);
-    const Vector3d at = ThreeNumbers(map, "at_m", kMaxLength_m);
-    const std::string fixed = map.Choice("fixed", {"false", "true", "x", "y", "z", "xy", "xz", "yz"}, "false");
+void DrawingReader::ReadPoints(const DeclaredMap& root) {
+  const auto named = root.Named("points");
+  const Map points = root.map().OptionalChild("points");
+  for (const auto& [name, map] : named) {
+    const Vector3d at = ThreeNumbers(map, "at_m");
+    const std::string fixed = map.Word("fixed");
     if (!IsNew(points, name)) continue;
     const int index = AddEntity(points, name, EntityKind::kPoint, at);
     EntityDrawing& entity = drawing_.entities.back();
     for (std::size_t c = 0; c < 3; ++c)
       entity.fixed[c] = fixed == "true" || (fixed != "false" && fixed.find("xyz"[c]) != std::string::npos);
     if (planar_) entity.fixed[2] = true;
-    if (!map.Has("velocity_mps")) continue;
-    const Vector3d velocity = ThreeNumbers(map, "velocity_mps", kMaxSpeed_mps);
-    for (int c = 0; c < 3; ++c) drawing_.velocities.push_back({index, c, velocity[c], map.Place("velocity_mps")});
+    if (!map.map().Has("velocity_mps")) continue;
+    const Vector3d velocity = ThreeNumbers(map, "velocity_mps");
+    for (int c = 0; c < 3; ++c) drawing_.velocities.push_back({index, c, velocity[c], map.map().Place("velocity_mps")});
   }
 }
 
-void DrawingReader::ReadVectors(const Map& root) {
-  const Map vectors = root.OptionalChild("vectors");
-  for (const std::string& name : vectors.Keys()) {
-    const Map map = vectors.Child(name);
-    const Vector3d direction = ThreeNumbers(map, "direction", 1e6);
-    const bool fixed = map.Flag("fixed", false);
+void DrawingReader::ReadVectors(const DeclaredMap& root) {
+  const Map vectors = root.map().OptionalChild("vectors");
+  for (const auto& [name, map] : root.Named("vectors")) {
+    const Vector3d direction = ThreeNumbers(map, "direction");
+    const bool fixed = map.Flag("fixed");
     const double size = direction.norm();
-    if (map.Has("direction") && !(size > 1e-9)) {
-      map.Problem("direction", "mechanism.no_length", "'direction' has no length; a direction was expected");
+    if (map.map().Has("direction") && !(size > 1e-9)) {
+      map.map().Problem("direction", "mechanism.no_length", "'direction' has no length; a direction was expected");
       continue;
     }
     if (!IsNew(vectors, name) || !(size > 0.0)) continue;
@@ -114,18 +122,17 @@ void DrawingReader::ReadVectors(const Map& root) {
   }
 }
 
-void DrawingReader::ReadBodies(const Map& root) {
-  const Map bodies = root.OptionalChild("bodies");
-  for (const std::string& name : bodies.Keys()) ReadBody(bodies, name);
+void DrawingReader::ReadBodies(const DeclaredMap& root) {
+  const Map bodies = root.map().OptionalChild("bodies");
+  for (const auto& [name, found] : root.Named("bodies")) ReadBody(bodies, name, found);
 }
 
-void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
-  const Map map = bodies.Child(name);
+void DrawingReader::ReadBody(const Map& bodies, const std::string& name, const DeclaredMap& found) {
   BodyDrawing body;
   body.name = name;
   body.place = bodies.Place(name);
-  const std::string kind =
-      map.Choice("kind", {"general", "plate", "planar", "rod", "particle"}, planar_ ? "planar" : "general");
+  const std::string kind = found.Word("kind", planar_ ? "planar" : "general");
+  const DeclaredMap map = found.OfKind(kind);
   body.kind = kind == "planar"     ? BodyKind::kPlanar
               : kind == "plate"    ? BodyKind::kPlate
               : kind == "rod"      ? BodyKind::kRod
@@ -133,11 +140,12 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
                                    : BodyKind::kGeneral;
   bool good = true;
   const auto read = [&](const char* key, EntityKind wanted, std::vector<int>& into) {
-    const List list = map.OptionalItems(key);
+    const Map& with_key = map.MapWith(key);
+    const List list = wanted == EntityKind::kPoint ? with_key.Items(key) : with_key.OptionalItems(key);
     for (std::size_t i = 0; i < list.size(); ++i) {
       const std::string entity = list.Text(i);
-      const auto found = entities_.find(entity);
-      if (found == entities_.end() || drawing_.entities[static_cast<std::size_t>(found->second)].kind != wanted) {
+      const auto at = entities_.find(entity);
+      if (at == entities_.end() || drawing_.entities[static_cast<std::size_t>(at->second)].kind != wanted) {
         list.Problem(i, "config.unknown_name",
                      fmt::format("'{}' is no {}{}", entity, wanted == EntityKind::kPoint ? "point" : "vector",
                                  base::DidYouMean(entity, NamesOf(wanted == EntityKind::kPoint,
@@ -145,45 +153,47 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
         good = false;
         continue;
       }
-      if (std::find(into.begin(), into.end(), found->second) != into.end()) {
-        list.Problem(i, "config.duplicate_name", fmt::format("'{}' stands twice", entity));
+      if (std::find(into.begin(), into.end(), at->second) != into.end()) {
+        list.Problem(i, "config.duplicate_name", fmt::format("'{}' stands twice in '{}'", entity, key));
         good = false;
         continue;
       }
-      into.push_back(found->second);
+      into.push_back(at->second);
     }
   };
+  const bool line = body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle;
   read("points", EntityKind::kPoint, body.points);
   read("vectors", EntityKind::kVector, body.vectors);
   if (good && body.points.empty()) {
-    bodies.Problem(name, "config.too_few", fmt::format("body '{}' has no point; at least one was expected", name));
+    if (map.map().Has("points"))
+      map.map().Problem("points", "config.too_few",
+                        fmt::format("'points' of the body '{}' is empty; at least one was expected", name));
     good = false;
   }
-  body.mass_kg = map.Number("mass_kg", {0.0, 1e9});
+  body.mass_kg = map.Number("mass_kg");
   const auto at = [this](int entity) { return Vector3d(Eigen::Map<const Vector3d>(at_.data() + 3 * entity)); };
   Vector3d centre = Vector3d::Zero();
   for (const int point : body.points) centre += at(point) / static_cast<double>(body.points.size());
-  const bool line = body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle;
   if (line && body.points.size() > (body.kind == BodyKind::kRod ? 2u : 1u)) {
-    map.Problem("points", "config.wrong_length",
-                fmt::format("a {} has {} points; {} expected", kind, body.points.size(),
-                            body.kind == BodyKind::kRod ? "two were" : "one was"));
+    map.map().Problem("points", "config.wrong_length",
+                      fmt::format("a {} has {} points; {} expected", kind, body.points.size(),
+                                  body.kind == BodyKind::kRod ? "two were" : "one was"));
     good = false;
   }
-  body.centre_m = line && !map.Has("centre_m") ? centre : ThreeNumbers(map, "centre_m", kMaxLength_m);
+  body.centre_m = line && !map.map().Has("centre_m") ? centre : ThreeNumbers(map, "centre_m");
   if (body.kind == BodyKind::kPlanar) {
-    body.inertia_kgm2(2, 2) = map.Number("inertia_zz_kgm2", {0.0, 1e12});
+    body.inertia_kgm2(2, 2) = map.Number("inertia_zz_kgm2");
   } else if (body.kind == BodyKind::kRod && good && body.points.size() == 2) {
     const Vector3d way = at(body.points[1]) - at(body.points[0]);
-    const double inertia = map.Number("inertia_kgm2", {0.0, 1e12}, body.mass_kg * way.squaredNorm() / 12.0);
+    const double inertia = map.Number("inertia_kgm2", body.mass_kg * way.squaredNorm() / 12.0);
     if (way.norm() > 0.0)
       body.inertia_kgm2 = inertia * (Eigen::Matrix3d::Identity() - way * way.transpose() / way.squaredNorm());
-  } else if (body.kind == BodyKind::kPlate && !map.Has("inertia_kgm2")) {
+  } else if (body.kind == BodyKind::kPlate && !map.map().Has("inertia_kgm2")) {
     body.inertia_kgm2.setZero();  // as if all of its mass were in its centre
   } else if (body.kind == BodyKind::kGeneral || body.kind == BodyKind::kPlate) {
-    const std::vector<double> i = map.Numbers("inertia_kgm2", {-1e12, 1e12});
-    if (map.Has("inertia_kgm2") && i.size() != 6 && i.size() != 3) {
-      map.Problem(
+    const std::vector<double> i = map.RequiredNumbers("inertia_kgm2");
+    if (map.map().Has("inertia_kgm2") && i.size() != 6 && i.size() != 3) {
+      map.map().Problem(
           "inertia_kgm2", "config.wrong_length",
           fmt::format(
               "'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected",
@@ -204,12 +214,11 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   if (body.kind != BodyKind::kParticle) last.centre = OfBody(last.centre, index);
 }
 
-void DrawingReader::ReadMarkers(const Map& root) {
-  const Map markers = root.OptionalChild("markers");
-  for (const std::string& name : markers.Keys()) {
-    const Map map = markers.Child(name);
+void DrawingReader::ReadMarkers(const DeclaredMap& root) {
+  const Map markers = root.map().OptionalChild("markers");
+  for (const auto& [name, map] : root.Named("markers")) {
     const auto body = Body(map, "body");
-    const Vector3d at = ThreeNumbers(map, "at_m", kMaxLength_m);
+    const Vector3d at = ThreeNumbers(map, "at_m");
     if (!body || !IsNew(markers, name)) continue;
     markers_.emplace(name, drawing_.bodies[static_cast<std::size_t>(*body)].frame.PointAt(at));
   }
@@ -234,9 +243,7 @@ std::optional<int> DrawingReader::Entity(const Map& map, std::string_view key, c
   const auto found = entities_.find(name);
   if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].is_scalar() == scalar)
     return found->second;
-  map.Problem(key, "config.unknown_name",
-              fmt::format("'{}' is no {}{}", name, scalar ? "angle or distance" : "point or vector",
-                          base::DidYouMean(name, NamesOf(!scalar, !scalar, scalar))));
+  TellUnknown(map, key, name, scalar ? "angle or distance" : "point or vector", NamesOf(!scalar, !scalar, scalar));
   return std::nullopt;
 }
 
@@ -246,35 +253,32 @@ std::optional<Form> DrawingReader::Point(const Map& map, std::string_view key, c
   const auto found = entities_.find(name);
   if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kPoint)
     return Single(found->second);
-  map.Problem(key, "config.unknown_name",
-              fmt::format("'{}' is no point{}", name, base::DidYouMean(name, NamesOf(true, false, false))));
+  TellUnknown(map, key, name, "point", NamesOf(true, false, false));
   return std::nullopt;
 }
 
-std::optional<int> DrawingReader::Body(const Map& map, std::string_view key) const {
-  const std::string name = map.Text(key);
+std::optional<int> DrawingReader::Body(const DeclaredMap& map, std::string_view key) const {
+  const std::string name = map.MapWith(key).Text(key);
   for (std::size_t i = 0; i < drawing_.body_names.size(); ++i) {
     if (drawing_.body_names[i] == name) return static_cast<int>(i);
   }
-  if (map.Has(key))
-    map.Problem(key, "config.unknown_name",
-                fmt::format("'{}' is no body{}", name, base::DidYouMean(name, drawing_.body_names)));
+  TellUnknown(map.map(), key, name, "body", drawing_.body_names);
   return std::nullopt;
 }
 
-std::optional<int> DrawingReader::LoadNamed(const Map& map, std::string_view key) const {
+std::optional<int> DrawingReader::LoadNamed(const DeclaredMap& map, std::string_view key) const {
   const std::string name = map.Text(key);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < drawing_.loads.size(); ++i) {
     names.push_back(drawing_.loads[i].name);
     if (names.back() == name) return static_cast<int>(i);
   }
-  if (map.Has(key))
-    map.Problem(key, "config.unknown_name", fmt::format("'{}' is no force{}", name, base::DidYouMean(name, names)));
+  TellUnknown(map.map(), key, name, "force", names);
   return std::nullopt;
 }
 
-std::optional<std::array<Form, 2>> DrawingReader::TwoPoints(const Map& map, std::string_view key) const {
+std::optional<std::array<Form, 2>> DrawingReader::TwoPoints(const DeclaredMap& declared, std::string_view key) const {
+  const Map& map = declared.MapWith(key);
   const List list = map.Items(key);
   if (list.size() != 2) {
     if (map.Has(key))
@@ -287,7 +291,8 @@ std::optional<std::array<Form, 2>> DrawingReader::TwoPoints(const Map& map, std:
   return std::array<Form, 2>{*first, *second};
 }
 
-std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view key) const {
+std::optional<Form> DrawingReader::Direction(const DeclaredMap& declared, std::string_view key) const {
+  const Map& map = declared.MapWith(key);
   const List list = map.Items(key);
   if (list.size() == 1) {
     const std::string name = list.Text(0);
@@ -305,7 +310,7 @@ std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view ke
                   fmt::format("'{}' has {} names; [VECTOR] or [POINT, POINT] was expected", key, list.size()));
     return std::nullopt;
   }
-  const auto points = TwoPoints(map, key);
+  const auto points = TwoPoints(declared, key);
   if (!points) return std::nullopt;
   const Form way = Sum((*points)[1], (*points)[0], -1.0);
   // A direction between two of a body's own points turns with the body: what acts on it is a torque on the body.

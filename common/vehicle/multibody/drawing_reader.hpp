@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/vehicle/multibody/drawing.hpp"
 
 namespace rodeira::multibody {
@@ -23,10 +23,10 @@ class DrawingReader {
   // Each adds a problem at the key where the name is not known, and gives nothing.
   std::optional<int> Entity(const config::Map& map, std::string_view key, const std::string& name, bool scalar) const;
   std::optional<Form> Point(const config::Map& map, std::string_view key, const std::string& name) const;
-  std::optional<int> Body(const config::Map& map, std::string_view key) const;
-  std::optional<int> LoadNamed(const config::Map& map, std::string_view key) const;
+  std::optional<int> Body(const config::DeclaredMap& map, std::string_view key) const;
+  std::optional<int> LoadNamed(const config::DeclaredMap& map, std::string_view key) const;
   // [u] or [P, Q] under the key.
-  std::optional<Form> Direction(const config::Map& map, std::string_view key) const;
+  std::optional<Form> Direction(const config::DeclaredMap& map, std::string_view key) const;
   Vector3d Drawn(const Form& form) const { return Evaluate(form, at_.data()); }
 
  private:
@@ -34,29 +34,31 @@ class DrawingReader {
     int entity = 0;
     int component = 0;
   };
-  static Vector3d ThreeNumbers(const config::Map& map, std::string_view key, double most);
+  // Zero, and a problem, if there are not three.
+  static Vector3d ThreeNumbers(const config::DeclaredMap& map, std::string_view key);
 
-  void ReadPoints(const config::Map& root);
-  void ReadVectors(const config::Map& root);
-  void ReadBodies(const config::Map& root);
-  void ReadBody(const config::Map& bodies, const std::string& name);
-  void ReadMarkers(const config::Map& root);
-  void ReadAngles(const config::Map& root);
-  void ReadDistances(const config::Map& root);
-  void ReadConstraints(const config::Map& root);
-  void ReadConstraint(const config::Map& constraints, const std::string& name);
-  void ReadForces(const config::Map& root);
-  std::shared_ptr<Load> ReadForce(const config::Map& map, const std::string& kind);
-  std::shared_ptr<Load> ReadSpring(const config::Map& map, bool torsion);
-  std::shared_ptr<Load> ReadAntiRollBar(const config::Map& map);
-  std::shared_ptr<Load> ReadBushing(const config::Map& map);
+  void ReadPoints(const config::DeclaredMap& root);
+  void ReadVectors(const config::DeclaredMap& root);
+  void ReadBodies(const config::DeclaredMap& root);
+  void ReadBody(const config::Map& bodies, const std::string& name, const config::DeclaredMap& found);
+  void ReadMarkers(const config::DeclaredMap& root);
+  void ReadAngles(const config::DeclaredMap& root);
+  void ReadDistances(const config::DeclaredMap& root);
+  void ReadConstraints(const config::DeclaredMap& root);
+  void ReadConstraint(const config::DeclaredMap& found, const std::string& name);
+  void ReadForces(const config::DeclaredMap& root);
+  std::shared_ptr<Load> ReadForce(const config::DeclaredMap& map, const std::string& kind);
+  std::shared_ptr<Load> ReadSpring(const config::DeclaredMap& map, bool torsion);
+  std::shared_ptr<Load> ReadAntiRollBar(const config::DeclaredMap& map);
+  std::shared_ptr<Load> ReadBushing(const config::DeclaredMap& map);
 
   int AddEntity(const config::Map& map, const std::string& name, EntityKind kind, const Vector3d& at);
   bool IsNew(const config::Map& map, const std::string& name);
   std::optional<Coordinate> CoordinateNamed(const config::Map& map, std::string_view key,
                                             const std::string& name) const;
-  std::optional<std::array<Form, 2>> TwoPoints(const config::Map& map, std::string_view key) const;
-  Law ReadLaw(const config::Map& map, std::string_view value_key) const;
+  std::optional<std::array<Form, 2>> TwoPoints(const config::DeclaredMap& map, std::string_view key) const;
+  // `drawn`: the value at the beginning, with the sine, if the file does not give it.
+  static Law ReadLaw(const config::DeclaredMap& map, std::string_view value_key, std::optional<double> drawn = {});
   std::vector<std::string> NamesOf(bool points, bool vectors, bool scalars) const;
 
   bool planar_ = false;

@@ -2,13 +2,14 @@
 #include "common/vehicle/multibody/mechanism.hpp"
 
 #include "common/core/base/files.hpp"
+#include "common/vehicle/multibody/mechanism_schema.hpp"
 
 namespace rodeira::multibody {
 namespace {
 
 base::Result<Mechanism> Read(config::File& file, const SystemSettings& settings) {
   const config::Map root = file.root();
-  (void)root.Choice("rodeira", {"mechanism/1"});
+  (void)config::DeclaredMap(root, MechanismSchema().keys).Word("rodeira");
   const DrawingReader reader(root);
   root.IgnoreKey("outputs");
   if (const auto status = file.Finish(); !status) return status.error();

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/core/base/suggest.hpp"
+#include "common/vehicle/multibody/mechanism_schema.hpp"
 
 namespace rodeira::multibody {
 
@@ -184,7 +185,7 @@ class OutputReader {
 };
 
 std::vector<Output> ReadOutputs(const config::Map& root, const DrawingReader& reader, const System& system) {
-  const config::Map outputs = root.OptionalChild("outputs");
+  const config::Map outputs = config::DeclaredMap(root, MechanismKeys()).MapWith("outputs").OptionalChild("outputs");
   OutputReader output_reader(outputs, reader, system);
   for (const std::string& name : outputs.Keys()) output_reader.Read(name);
   if (!root.Has("outputs")) output_reader.Default();

@@ -16,15 +16,19 @@
 #include "common/vehicle/dynamics/vehicle_schema.hpp"
 #include "common/vehicle/input_devices/keyboard_schema.hpp"
 #include "common/vehicle/input_devices/wheel_schema.hpp"
+#include "common/vehicle/multibody/mechanism_schema.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
   static const std::vector<const config::Schema*> all = {
-      &driver::DriverSchema(),          &launch::LabSchema(),        &launch::LaunchSchema(),
-      &input_devices::KeyboardSchema(), &scenario::ScenarioSchema(), &traffic::TrafficSchema(),
-      &dynamics::VehicleSchema(),       &dynamics::FmuSchema(),      &input_devices::WheelSchema()};
+      &driver::DriverSchema(),          &launch::LabSchema(),
+      &launch::LaunchSchema(),          &multibody::MechanismSchema(),
+      &input_devices::KeyboardSchema(), &scenario::ScenarioSchema(),
+      &traffic::TrafficSchema(),        &dynamics::VehicleSchema(),
+      &dynamics::MultibodySchema(),     &dynamics::FmuSchema(),
+      &dynamics::LibrarySchema(),       &input_devices::WheelSchema()};
   return all;
 }
 

@@ -37,7 +37,10 @@ class SampleFile {
         return Mapping(key.of, path + ".");
       case ValueType::kNamed:
         return fmt::format("{{{}: {}}}", key.sample.empty() ? "a" : key.sample, Value(key.of.front(), path + ".NAME"));
+      case ValueType::kKinds:
+        return OneKind(key, path);
       case ValueType::kList:
+        if (!key.sample.empty() && !IsGiven(path)) return key.sample;
         return fmt::format("[{}]", fmt::join(std::vector<std::string>(std::max<std::size_t>(key.min_items, 1),
                                                                       Value(key.of.front(), path + "[]")),
                                              ", "));
@@ -46,9 +49,7 @@ class SampleFile {
       case ValueType::kFlag:
         return "true";
       case ValueType::kOther:
-        return std::ranges::any_of(values_, [&](const auto& value) { return LeadsTo(path, value.first); })
-                   ? Mapping(key.of, path + ".")
-                   : key.sample;
+        return IsGiven(path) ? Mapping(key.of, path + ".") : key.sample;
       case ValueType::kText:
         return key.sample;
       default:
@@ -60,12 +61,30 @@ class SampleFile {
  private:
   // Whether `path` is `part` or leads to it.
   static bool LeadsTo(const std::string& part, const std::string& path) {
-    return path.starts_with(part) &&
-           (path.size() == part.size() || path[part.size()] == '.' || path[part.size()] == '[');
+    return path.starts_with(part) && (path.size() == part.size() || path[part.size()] == '.' ||
+                                      path[part.size()] == '[' || path[part.size()] == '(');
   }
-  bool Has(const std::string& path) const {
-    return LeadsTo(path, left_out_) ||
-           std::ranges::any_of(values_, [&](const auto& value) { return LeadsTo(path, value.first); });
+  bool IsGiven(const std::string& path) const {
+    return std::ranges::any_of(values_, [&](const auto& value) { return LeadsTo(path, value.first); });
+  }
+  bool Has(const std::string& path) const { return LeadsTo(path, left_out_) || IsGiven(path); }
+  // A mapping of the kind that a path names or a word gives, else of the first kind.
+  std::string OneKind(const Key& key, const std::string& path) const {
+    const Key& word = key.of.front();
+    const std::string word_path = path + "." + word.name;
+    const auto given = values_.find(word_path);
+    const Key* kind = &key.of.at(1);
+    for (std::size_t i = 1; i < key.of.size(); ++i) {
+      if ((given != values_.end() && given->second == key.of[i].name) || Has(path + "(" + key.of[i].name + ")"))
+        kind = &key.of[i];
+    }
+    Key required = word;
+    required.required = true;
+    required.sample = kind->name;
+    std::string first = Mapping({required}, path + ".");
+    std::string rest = Mapping(kind->of, path + "(" + kind->name + ").");
+    if (first == "{}" || rest == "{}") return first == "{}" ? rest : first;
+    return first.substr(0, first.size() - 1) + ", " + rest.substr(1);
   }
   std::string Mapping(const std::vector<Key>& keys, const std::string& prefix) const {
     std::vector<std::string> entries;
@@ -100,6 +119,10 @@ inline void CollectContainers(const std::vector<Key>& keys, const std::string& p
     } else if (key.type == ValueType::kNamed || key.type == ValueType::kList) {
       out.push_back({path, &key});
       CollectContainers(key.of, path + (key.type == ValueType::kList ? "[]" : ".NAME"), out);
+    } else if (key.type == ValueType::kKinds) {
+      out.push_back({path, &key});
+      for (std::size_t i = 1; i < key.of.size(); ++i)
+        CollectContainers(key.of[i].of, path + "(" + key.of[i].name + ").", out);
     }
   }
 }

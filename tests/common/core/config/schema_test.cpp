@@ -16,18 +16,24 @@ using ::testing::HasSubstr;
 const Schema& Garage() {
   static const Schema schema{
       "garage", "garage/1", "A garage.",
-      FileKeys("garage/1",
-               {RequiredNumberKey("height_m", Range::Positive(), "Clear height."),
-                NumberKey("slope", {-0.25, 0.25}, 0.0, "Slope of the floor."), IntegerKey("floors", 1, 9, 2, "Floors."),
-                FlagKey("lit", true, "Lamps are on."), WordKey("kind", {"open", "closed"}, "open", "Walls."),
-                NamedKey("gates", {RequiredTextKey("side", "north", "Side of the \"gate\".")}, "Gates."),
-                Counted(2, 3, ListKey("axes", NumberItem({0.0, 5.0}), "Axes.")),
-                OptionalNumberKey("gap_m", {0.0, 1.0}, "Gap."),
-                ListKey("cars",
-                        {RequiredNumberKey("length_m", Range::Positive(), "Length."),
-                         ListKey("colours", TextItem("red"), "Colours.")},
-                        "Cars."),
-                OtherKey("sign", "a text or a number", "7", "Sign.")})};
+      FileKeys(
+          "garage/1",
+          {RequiredNumberKey("height_m", Range::Positive(), "Clear height."),
+           NumberKey("slope", {-0.25, 0.25}, 0.0, "Slope of the floor."), IntegerKey("floors", 1, 9, 2, "Floors."),
+           FlagKey("lit", true, "Lamps are on."), WordKey("kind", {"open", "closed"}, "open", "Walls."),
+           NamedKey("gates", {RequiredTextKey("side", "north", "Side of the \"gate\".")}, "Gates."),
+           Counted(2, 3, ListKey("axes", NumberItem({0.0, 5.0}), "Axes.")),
+           OptionalNumberKey("gap_m", {0.0, 1.0}, "Gap."),
+           ListKey("cars",
+                   {RequiredNumberKey("length_m", Range::Positive(), "Length."),
+                    ListKey("colours", TextItem("red"), "Colours.")},
+                   "Cars."),
+           NamedValueKey("doors",
+                         KindsItem(Required(OptionalWordKey("kind", {"roller", "swing"}, "Kind.")),
+                                   {MappingKey("roller", {NumberKey("power_W", {0.0, 1e3}, 200.0, "Power.")}, ""),
+                                    MappingKey("swing", {RequiredNumberKey("width_m", {0.5, 9.0}, "Width.")}, "")}),
+                         "Doors."),
+           OtherKey("sign", "a text or a number", "7", "Sign.")})};
   return schema;
 }
 
@@ -52,6 +58,10 @@ std::string ReadGarage(const std::string& text) {
     (void)car.Number("length_m");
     const DeclaredList colours = car.Items("colours");
     for (std::size_t k = 0; k < colours.size(); ++k) (void)colours.Text(k);
+  }
+  for (const auto& [name, door] : root.Named("doors")) {
+    const std::string kind = door.Word("kind");
+    (void)door.OfKind(kind).Number(kind == "roller" ? "power_W" : "width_m");
   }
   (void)root.MapWith("sign").Text("sign", "");
   const base::Status status = file.value().Finish();
@@ -81,6 +91,8 @@ TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
   EXPECT_DEATH((void)root.Text("height_m"), "found->type == type");
   EXPECT_DEATH((void)root.MapWith("width_m"), "FindKey");
   EXPECT_DEATH((void)root.Items("height_m"), "found->type == type");
+  EXPECT_DEATH((void)root.OfKind("roller"), "found != nullptr");
+  EXPECT_DEATH((void)root.NamedNumbers("doors"), "kNumber");
 }
 
 TEST(Schema, MarkdownHasARowAKey) {
@@ -97,6 +109,9 @@ TEST(Schema, MarkdownHasARowAKey) {
             "| `gap_m` | | 0 to 1 | Gap. |\n"
             "| `cars[].length_m` | required | over 0 | Length. |\n"
             "| `cars[].colours[]` | | | Colours. |\n"
+            "| `doors.NAME.kind` | required | roller, swing | Kind. |\n"
+            "| `doors.NAME(roller).power_W` | 200 | 0 to 1000 | Power. |\n"
+            "| `doors.NAME(swing).width_m` | required | 0.5 to 9 | Width. |\n"
             "| `sign` | | a text or a number | Sign. |\n");
 }
 
@@ -109,7 +124,9 @@ TEST(Schema, JsonHasTypeBoundsAndWhatIsRequired) {
   EXPECT_THAT(json, HasSubstr("\"description\": \"Side of the \\\"gate\\\".\""));
 }
 
-TEST(Schema, TextHasALineAKey) { EXPECT_THAT(SchemaText(Garage()), HasSubstr("gates.NAME.side   required")); }
+TEST(Schema, TextHasALineAKey) {
+  EXPECT_THAT(SchemaText(Garage()), ::testing::ContainsRegex("gates.NAME.side +required"));
+}
 
 }  // namespace
 }  // namespace rodeira::config

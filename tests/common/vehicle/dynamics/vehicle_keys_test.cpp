@@ -7,6 +7,7 @@
 
 #include "common/core/config/declared.hpp"
 #include "common/vehicle/dynamics/fmu_model.hpp"
+#include "common/vehicle/dynamics/multibody_settings.hpp"
 #include "common/vehicle/dynamics/ode_settings.hpp"
 #include "common/vehicle/dynamics/vehicle_schema.hpp"
 #include "tests/common/core/config/every_key.hpp"
@@ -22,6 +23,22 @@ std::string ReadBeginning(const config::Map& root, const config::Schema& schema)
   const config::Map models = declared.MapWith("models").OptionalChild("models");
   for (const std::string& name : models.Keys()) (void)models.Path(name);
   return declared.Word("model");
+}
+
+// What a slip curve needs beside each of its keys, and the bounds that its other keys forbid.
+void AddSlipCurve(const std::string& axle, config::Companions& others, std::set<std::string>& no_bounds) {
+  const config::Values curve{{axle + ".magic_formula", ""}};
+  others[axle + ".slip_curve"] = curve;
+  others[axle + ".aligning"] = {{axle + ".magic_formula", ""}, {axle + ".slip_curve.lateral.extremum_slip", "0.1"}};
+  for (const config::Key& key : AligningKeys()) others[axle + ".aligning." + key.name] = others[axle + ".aligning"];
+  for (const std::string& way : {axle + ".slip_curve.longitudinal", axle + ".slip_curve.lateral"}) {
+    others[way] = others[way + ".asymptote_slip"] = others[way + ".extremum_slip"] = curve;
+    others[way + ".asymptote_value"] = others[way + ".extremum_value"] = curve;
+    others[way + ".extremum_slip"][way + ".asymptote_slip"] = "10";
+    others[way + ".asymptote_value"][way + ".extremum_value"] = "5";
+    others[way + ".extremum_value"][way + ".asymptote_value"] = "0";
+    no_bounds.insert(way + ".asymptote_slip");
+  }
 }
 
 // A generated file for each declared key. Speeds of the engine and points of a slip curve are bounds of each other; the
@@ -46,21 +63,36 @@ TEST(VehicleKeys, EveryDeclaredKeyKeepsItsTypeAndBounds) {
   std::set<std::string> no_bounds{"engine.idle_rpm",   "engine.stall_rpm",      "engine.cut_rpm",
                                   "engine.resume_rpm", "automatic.bite_rpm",    "automatic.closed_rpm",
                                   "ode.wheel_mass_kg", "ode.wheel_across_kgm2", "ode.clearance_m"};
-  for (const std::string axle : {"tyre.front", "tyre.rear"}) {
-    const config::Values curve{{axle + ".magic_formula", ""}};
-    others[axle + ".slip_curve"] = curve;
-    others[axle + ".aligning"] = {{axle + ".magic_formula", ""}, {axle + ".slip_curve.lateral.extremum_slip", "0.1"}};
-    for (const config::Key& key : AligningKeys()) others[axle + ".aligning." + key.name] = others[axle + ".aligning"];
-    for (const std::string& way : {axle + ".slip_curve.longitudinal", axle + ".slip_curve.lateral"}) {
-      others[way] = others[way + ".asymptote_slip"] = others[way + ".extremum_slip"] = curve;
-      others[way + ".asymptote_value"] = others[way + ".extremum_value"] = curve;
-      others[way + ".extremum_slip"][way + ".asymptote_slip"] = "10";
-      others[way + ".asymptote_value"][way + ".extremum_value"] = "5";
-      others[way + ".extremum_value"][way + ".asymptote_value"] = "0";
-      no_bounds.insert(way + ".asymptote_slip");
-    }
-  }
+  for (const std::string axle : {"tyre.front", "tyre.rear"}) AddSlipCurve(axle, others, no_bounds);
   config::ExpectEveryKey(VehicleSchema(), problem, others, no_bounds);
+}
+
+TEST(VehicleKeys, EveryDeclaredKeyOfAMultibodyCarKeepsItsTypeAndBounds) {
+  const auto problem = [](const std::string& text) -> std::string {
+    const auto file = config::File::Parse(text, "car.yaml");
+    if (!file) return file.error().Text();
+    (void)ReadBeginning(file.value().root(), MultibodySchema());
+    (void)ReadMultibody(file.value().root());
+    const auto status = file.value().Finish();
+    return status ? "" : status.error().Text();
+  };
+  config::Companions others;
+  std::set<std::string> no_bounds{"engine.idle_rpm",   "engine.stall_rpm",   "engine.cut_rpm",
+                                  "engine.resume_rpm", "automatic.bite_rpm", "automatic.closed_rpm"};
+  for (const std::string axle : {"tyre.front", "tyre.rear"}) AddSlipCurve(axle, others, no_bounds);
+  config::ExpectEveryKey(MultibodySchema(), problem, others, no_bounds);
+}
+
+// A shared object reads the others.
+TEST(VehicleKeys, EveryDeclaredKeyOfALibraryKeepsItsType) {
+  config::ExpectEveryKey(LibrarySchema(), [](const std::string& text) -> std::string {
+    const auto file = config::File::Parse(text, "car.yaml");
+    if (!file) return file.error().Text();
+    (void)ReadBeginning(file.value().root(), LibrarySchema());
+    (void)file.value().root().Path("library");
+    const auto status = file.value().Finish();
+    return status ? "" : status.error().Text();
+  });
 }
 
 TEST(VehicleKeys, EveryDeclaredKeyOfAnFmuKeepsItsTypeAndBounds) {
