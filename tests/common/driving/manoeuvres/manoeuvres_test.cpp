@@ -40,7 +40,7 @@ Outcome Driven(base::Result<Outcome> outcome) {
 }
 
 // A car with the two degrees of freedom that the linear model has: a low centre of gravity, short relaxation, no
-// losses.
+// losses, and tyres whose side force acts in the middle of their contact.
 struct LinearCar {
   double mass_kg = 1500.0, inertia_kgm2 = 2500.0, a_m = 1.2, b_m = 1.5;
   double front_Nprad = 8e4, rear_Nprad = 1e5;
@@ -62,6 +62,8 @@ struct LinearCar {
     const double load[] = {mass_kg * kG_mps2 * b_m / (a_m + b_m) / 2, mass_kg * kG_mps2 * a_m / (a_m + b_m) / 2};
     for (std::size_t axle = 0; axle < 2; ++axle) {
       s.tyre[axle].relaxation_lateral_m = 0.02;
+      s.tyre[axle].aligning.reset();
+      s.tyre[axle].pneumatic_trail_m = 0.0;
       s.tyre[axle].formula.lmuy = 4.0;  // far from its limit, so that it stays a straight line
       s.tyre[axle].formula.lky *= 0.5 * stiffness[axle] / CorneringStiffness(s.tyre[axle].formula, load[axle]);
     }
