@@ -17,6 +17,13 @@ constexpr double kUnhindered_mps2 = 1e3;  // more than any vehicle accelerates b
 constexpr double kFollowing_mps2 = 1.5;   // a reservation behind another vehicle costs no harder braking
 constexpr double kLeast_mps2 = 1e-3;      // one left less than this at rest does not drive on; with pedals one left
 
+// How far before a zone it stops: nearer where it may wait past a light.
+double StopsBefore_m(const Agent& agent) {
+  const bool inside =
+      std::any_of(agent.grants.begin(), agent.grants.end(), [](const ZoneGrant& grant) { return grant.light >= 0; });
+  return inside ? kInsideDistance_m : kStopDistance_m;
+}
+
 }  // namespace
 
 // From its front to the rear of the one that goes before it through a zone in which their ways come together, both by
@@ -39,10 +46,10 @@ bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Reserv
 // whichever is the less.
 template <class Tell>
 void Merging::EachLeaves(std::uint32_t id, const Tell& tell) const {
-  const double front = FrontOf(out_.agents[id], in_.traits[id]);
+  const double front = FrontOf(out_.agents[id], in_.traits[id]), before = StopsBefore_m(out_.agents[id]);
   EachBefore(id, [&](const Reservation& holder, double in, double out, bool merges) {
     const double gap = merges ? MergingGap(id, out, holder) : -1.0;
-    double leaves = in >= front ? in_.following.StopAt(id, in - kStopDistance_m) : kUnhindered_mps2;
+    double leaves = in >= front ? in_.following.StopAt(id, in - before) : kUnhindered_mps2;
     if (gap > 0.0) {
       const double following = in_.following.FollowComing(id, holder.id, gap);
       leaves = in >= front ? std::max(leaves, following) : following;
