@@ -86,14 +86,14 @@ system_test::Ended Verify(const std::string& recording) {
       {system_test::Bin("rodeira"), "replay", "--verify", SourceDir() + "/tests/data/recordings/" + recording});
 }
 
-// 0.2 s of scripted.yaml, recorded by the first program whose cars have the aligning moment.
+// 0.2 s of scripted.yaml, recorded by the first program with the aligning moment in its cars.
 TEST(PinnedRecording, OfAnEarlierProgramIsComputedAgain) {
   const auto ended = Verify("scripted_aligning.mcap");
   EXPECT_EQ(ended.status, 0) << ended.out;
   EXPECT_NE(ended.out.find("identical: 200 steps"), std::string::npos) << ended.out;
 }
 
-// The same, recorded by the program of commit 2c2fa2f4, whose car had no aligning moment.
+// The same, recorded by the program of commit 2c2fa2f4, without the aligning moment.
 TEST(PinnedRecording, OfAnotherVehicleModelIsTold) {
   const auto ended = Verify("scripted_2c2fa2f4.mcap");
   EXPECT_EQ(ended.status, 1) << ended.out;

@@ -45,8 +45,7 @@ const std::vector<Key>& FormulaKeys() {
     const MagicFormulaSettings usual;
     std::vector<Key> all;
     for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients())
-      all.push_back(
-          CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the Magic Formula."));
+      all.push_back(CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the Magic Formula."));
     const AligningSettings aligning;
     for (const AligningCoefficient& coefficient : AligningCoefficients())
       all.push_back(
@@ -61,8 +60,7 @@ const std::vector<Key>& AligningKeys() {
     const AligningSettings usual;
     std::vector<Key> all{WithSample("3000", RequiredNumberKey("FNOMIN", config::Range::Positive(), "Nominal load."))};
     for (const AligningCoefficient& coefficient : AligningCoefficients())
-      all.push_back(
-          CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the aligning moment."));
+      all.push_back(CoefficientKey(coefficient.name, usual.*coefficient.member, "Coefficient of the aligning moment."));
     return all;
   }();
   return keys;

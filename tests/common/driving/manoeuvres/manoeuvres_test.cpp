@@ -40,7 +40,7 @@ Outcome Driven(base::Result<Outcome> outcome) {
 }
 
 // A car with the two degrees of freedom that the linear model has: a low centre of gravity, short relaxation, no
-// losses, and tyres whose side force acts in the middle of their contact.
+// losses, and tyres with the side force in the middle of their contact.
 struct LinearCar {
   double mass_kg = 1500.0, inertia_kgm2 = 2500.0, a_m = 1.2, b_m = 1.5;
   double front_Nprad = 8e4, rear_Nprad = 1e5;

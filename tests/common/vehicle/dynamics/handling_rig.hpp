@@ -67,9 +67,7 @@ struct AxleStiffness {
 
   double wheelbase_m() const { return front_to_centre_m + centre_to_rear_m; }
   // rad per m/s²
-  double UndersteerGradient() const {
-    return mass_kg * (front_share / front_Nprad - rear_share / rear_Nprad);
-  }
+  double UndersteerGradient() const { return mass_kg * (front_share / front_Nprad - rear_share / rear_Nprad); }
 };
 
 // Where the mass is, along x, as drawn.

@@ -161,8 +161,8 @@ TEST_P(SteeringFeelOfEveryBody, AParkedWheelIsAsHeavyAsItsPatchAndRollsOffWithou
 INSTANTIATE_TEST_SUITE_P(Models, SteeringFeelOfEveryBody,
                          ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
 
-// In a steady bend nothing yaws faster: the wheels' longitudinal forces, the axles' side forces and the aligning moments
-// balance about the centre of gravity. The moments by the tyres' own formula.
+// In a steady bend nothing yaws faster: the wheels' longitudinal forces, the axles' side forces and the aligning
+// moments balance about the centre of gravity. The moments by the tyres' own formula.
 TEST(SteeringFeel, TheMomentsTurnTheBodyToo) {
   auto car = MakeModel(kBicycle);
   Steer(*car, 20.0, 8.0, [](double time_s) { return 20.0 * kDegree * std::min(1.0, time_s); });
