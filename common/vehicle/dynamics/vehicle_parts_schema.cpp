@@ -97,7 +97,7 @@ const std::vector<Key>& SteeringKeys() {
       NumberKey("scrub_radius_m", {-0.1, 0.1}, steering.scrub_radius_m,
                 "From the steering axis on the ground to the contact, outwards."),
       NumberKey("pneumatic_trail_m", {0.0, 0.2}, steering.pneumatic_trail_m,
-                "Pneumatic trail, for the steering torque.")};
+                "Trail of tyres without an aligning moment.")};
   return keys;
 }
 
