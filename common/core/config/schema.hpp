@@ -84,7 +84,7 @@ Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning);
 // A mapping of names to mappings with the keys; of names to values.
 Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning);
 Key NamedValueKey(std::string name, Key value, std::string meaning);
-// A value of kNamed or an item of a list: a mapping whose key `word` says which of `kinds`, a MappingKey each, it is.
+// A value of kNamed or an item of a list: a mapping of one of `kinds`, a MappingKey each; the key `word` says which.
 // Words of `word` are the names of the kinds; it is required unless it has a default.
 Key KindsItem(Key word, std::vector<Key> kinds);
 Key ListKey(std::string name, Key item, std::string meaning);
