@@ -48,6 +48,7 @@ std::optional<traffic_map::Finding> LightsTogether(const traffic_map::LaneMap& m
                               0,
                               0,
                               phase == nullptr ? 0 : traffic_map::LineOf(phase->place),
+                              "world.wrong_signals",
                               together->sentence};
 }
 
@@ -60,7 +61,7 @@ base::Status CheckLightsOfMap(const std::filesystem::path& path) {
   const auto network = traffic_map::ToNetwork(made.value(), path.string());
   if (!network) return network.error();
   const auto wrong = LightsTogether(made.value(), companion.value(), *network.value());
-  if (wrong) return base::WrongInput("traffic.wrong_signals", wrong->Text(), wrong->Place(path.string()));
+  if (wrong) return base::WrongInput(wrong->id, wrong->Text(), wrong->Place(path.string()));
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/base/error_id.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "common/world/traffic_map/map_file.hpp"
 
@@ -24,6 +25,7 @@ struct Finding {
       0;                 // of the curve or lane (also of its sign or flow); of a connection the lane that it comes from
   std::int32_t to = 0;   // of a connection the lane that it goes to
   std::size_t line = 0;  // of the file; 0: the whole map, or an element that is in no file yet
+  base::ErrorId id;      // the rule
   std::string sentence;
 
   // "lane 3: its left curve 7 does not exist"

@@ -18,7 +18,7 @@ void CheckTwice(const std::vector<Line<Value>>& lines, Findings& findings) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t found = *first.Find(lines[i].value.id);
     if (found != i)
-      findings.Add(Severity::kError, lines[i],
+      findings.Add(Severity::kError, lines[i], "map.duplicate_number",
                    fmt::format("its number is taken already, in line {}", lines[found].number));
   }
 }
@@ -35,7 +35,7 @@ void CheckConnectionsTwice(const MapFile& map, Findings& findings) {
     const auto& [first, again] = std::pair(lines[order[i - 1]], lines[order[i]]);
     const bool differ = first.value.stop != again.value.stop;
     findings.Add(
-        Severity::kError, again,
+        Severity::kError, again, "map.duplicate_connection",
         fmt::format("it is there already, in line {}{}", first.number, differ ? ", and with another STOP flag" : ""));
   }
 }
@@ -49,11 +49,12 @@ void CheckSides(const MapFile& map, std::vector<bool>& used, Findings& findings)
       if (found)
         used[*found] = true;
       else
-        findings.Add(Severity::kError, line,
+        findings.Add(Severity::kError, line, "map.no_curve",
                      fmt::format("its {} curve {} does not exist", is_left ? "left" : "right", number));
     }
     if (line.value.left.curve == line.value.right.curve) {
-      findings.Add(Severity::kError, line, fmt::format("curve {} is on both of its sides", line.value.left.curve));
+      findings.Add(Severity::kError, line, "map.one_curve_on_both_sides",
+                   fmt::format("curve {} is on both of its sides", line.value.left.curve));
     }
   }
 }
@@ -62,11 +63,12 @@ void CheckConnections(const MapFile& map, Findings& findings) {
   const NumberIndex lanes(map.lanes);
   for (const auto& line : map.connections) {
     if (!lanes.Find(line.value.from))
-      findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.from));
+      findings.Add(Severity::kError, line, "map.no_lane", fmt::format("lane {} does not exist", line.value.from));
     if (!lanes.Find(line.value.to))
-      findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.to));
+      findings.Add(Severity::kError, line, "map.no_lane", fmt::format("lane {} does not exist", line.value.to));
     if (line.value.from == line.value.to)
-      findings.Add(Severity::kError, line, "it leads back into the lane that it comes from");
+      findings.Add(Severity::kError, line, "map.connection_to_itself",
+                   "it leads back into the lane that it comes from");
   }
 }
 
@@ -82,9 +84,10 @@ void CheckLights(const MapFile& map, const Heights& heights, Findings& findings)
       std::int32_t number = 0;
       const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), number);
       if (problem != std::errc() || end != name.data() + name.size() || !lanes.Find(number))
-        findings.Add(Severity::kError, *phase, fmt::format("the map has no lane {}", name));
+        findings.Add(Severity::kError, *phase, "map.no_lane", fmt::format("the map has no lane {}", name));
       if (!lit.insert(name).second)
-        findings.Add(Severity::kError, *phase, fmt::format("lane {} has other lights already", name));
+        findings.Add(Severity::kError, *phase, "map.lights_twice",
+                     fmt::format("lane {} has other lights already", name));
     }
   }
 }
@@ -93,14 +96,14 @@ void CheckLights(const MapFile& map, const Heights& heights, Findings& findings)
 void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) {
   const NumberIndex lanes(map.lanes);
   for (const LaneSign& sign : heights.signs) {
-    if (!lanes.Find(sign.lane)) findings.Add(Severity::kError, sign, "the map has no such lane");
+    if (!lanes.Find(sign.lane)) findings.Add(Severity::kError, sign, "map.no_lane", "the map has no such lane");
   }
   for (const LaneFlow& flow : heights.flows) {
     const auto lane = lanes.Find(flow.lane);
     if (!lane)
-      findings.Add(Severity::kError, flow, "the map has no such lane");
+      findings.Add(Severity::kError, flow, "map.no_lane", "the map has no such lane");
     else if (map.lanes[*lane].value.mode != LaneMode::kStart)
-      findings.Add(Severity::kError, flow, "it is no start lane: nobody begins there");
+      findings.Add(Severity::kError, flow, "map.flow_at_no_start", "it is no start lane: no vehicle begins there");
   }
 }
 
@@ -112,7 +115,7 @@ void CheckPriorities(const MapFile& map, const Heights& heights, Findings& findi
     const LaneSign& before = *first.emplace(sign.lane, &sign).first->second;
     if (before.kind != sign.kind) {
       findings.Add(
-          Severity::kWarning, sign,
+          Severity::kWarning, sign, "map.conflicting_signs",
           fmt::format(
               "'{}', but it has '{}' already, in line {}; one of 'stop', 'give_way' and 'priority' a lane was expected",
               NameOf(sign.kind), NameOf(before.kind), before.line));
@@ -121,7 +124,7 @@ void CheckPriorities(const MapFile& map, const Heights& heights, Findings& findi
   for (const auto& line : map.connections) {
     const auto sign = first.find(line.value.from);
     if (line.value.stop && sign != first.end() && sign->second->kind != SignKind::kStop) {
-      findings.Add(Severity::kWarning, *sign->second,
+      findings.Add(Severity::kWarning, *sign->second, "map.conflicting_signs",
                    fmt::format("'{}', but its connection to lane {} has a STOP flag", NameOf(sign->second->kind),
                                line.value.to));
       first.erase(sign);
@@ -143,19 +146,19 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
                        [mode](const auto& line) { return line.value.mode == mode; });
   };
   if (!has(LaneMode::kStart))
-    findings.AddToMap(Severity::kError, "no lane is a start lane (mode 1); at least one is needed");
+    findings.Add(Severity::kError, "map.no_start", "no lane is a start lane (mode 1); at least one is needed");
   if (!has(LaneMode::kEnd))
-    findings.AddToMap(Severity::kError, "no lane is an end lane (mode 2); at least one is needed");
+    findings.Add(Severity::kError, "map.no_end", "no lane is an end lane (mode 2); at least one is needed");
   const NumberIndex curves(map.curves);
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i] && curves.Find(map.curves[i].value.id) == i)
-      findings.Add(Severity::kWarning, map.curves[i], "no lane uses it");
+      findings.Add(Severity::kWarning, map.curves[i], "map.unused_curve", "no lane uses it");
   }
   CheckLights(map, heights, findings);
   CheckSigns(map, heights, findings);
   CheckPriorities(map, heights, findings);
   for (const CurveHeights& one : heights.curves) {
-    if (!curves.Find(one.curve)) findings.Add(Severity::kError, one, "the map has no such curve");
+    if (!curves.Find(one.curve)) findings.Add(Severity::kError, one, "map.no_curve", "the map has no such curve");
   }
 }
 

@@ -9,33 +9,33 @@
 
 namespace rodeira::traffic_map {
 
-// Findings are added by element, whatever it is.
+// Findings are added by element, whatever it is, each with the id of its rule.
 class Findings {
  public:
-  void Add(Severity severity, const Line<Curve>& curve, std::string sentence) {
-    all_.push_back({severity, Element::kCurve, curve.value.id, 0, curve.number, std::move(sentence)});
+  void Add(Severity severity, const Line<Curve>& curve, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kCurve, curve.value.id, 0, curve.number, id, std::move(sentence)});
   }
-  void Add(Severity severity, const Line<Lane>& lane, std::string sentence) {
-    all_.push_back({severity, Element::kLane, lane.value.id, 0, lane.number, std::move(sentence)});
+  void Add(Severity severity, const Line<Lane>& lane, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kLane, lane.value.id, 0, lane.number, id, std::move(sentence)});
   }
-  void Add(Severity severity, const Line<Connection>& connection, std::string sentence) {
-    all_.push_back({severity, Element::kConnection, connection.value.from, connection.value.to, connection.number,
+  void Add(Severity severity, const Line<Connection>& connection, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kConnection, connection.value.from, connection.value.to, connection.number, id,
                     std::move(sentence)});
   }
-  void Add(Severity severity, const CurveHeights& heights, std::string sentence) {
-    all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, std::move(sentence)});
+  void Add(Severity severity, const CurveHeights& heights, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, id, std::move(sentence)});
   }
-  void Add(Severity severity, const lights::Phase& phase, std::string sentence) {
-    all_.push_back({severity, Element::kLights, 0, 0, LineOf(phase.place), std::move(sentence)});
+  void Add(Severity severity, const lights::Phase& phase, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kLights, 0, 0, LineOf(phase.place), id, std::move(sentence)});
   }
-  void Add(Severity severity, const LaneSign& sign, std::string sentence) {
-    all_.push_back({severity, Element::kSign, sign.lane, 0, sign.line, std::move(sentence)});
+  void Add(Severity severity, const LaneSign& sign, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kSign, sign.lane, 0, sign.line, id, std::move(sentence)});
   }
-  void Add(Severity severity, const LaneFlow& flow, std::string sentence) {
-    all_.push_back({severity, Element::kFlow, flow.lane, 0, flow.line, std::move(sentence)});
+  void Add(Severity severity, const LaneFlow& flow, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kFlow, flow.lane, 0, flow.line, id, std::move(sentence)});
   }
-  void AddToMap(Severity severity, std::string sentence) {
-    all_.push_back({severity, Element::kMap, 0, 0, 0, std::move(sentence)});
+  void Add(Severity severity, base::ErrorId id, std::string sentence) {
+    all_.push_back({severity, Element::kMap, 0, 0, 0, id, std::move(sentence)});
   }
 
   const std::vector<Finding>& all() const { return all_; }

@@ -73,35 +73,43 @@ std::string Turned(const Lane& lane) {
 
 // False: there is no lane to speak of, and how it meets others says nothing.
 bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& findings) {
-  const auto refuse = [&](std::string sentence) {
-    findings.Add(Severity::kError, line, std::move(sentence));
-    return false;
-  };
   const auto run = [](const Border& border) -> Eigen::Vector2d { return border.plan.p_W[3] - border.plan.p_W[0]; };
   const auto head = [](const Border& border) { return border.plan.Tangent(0.0); };
   // Borders of a hairpin may have runs of little meaning, but their beginnings point the same way.
   if (run(shape.left()).dot(run(shape.right())) < 0.0 && head(shape.left()).dot(head(shape.right())) < 0.0) {
-    return refuse(fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve,
-                              line.value.right.curve, Turned(line.value)));
+    findings.Add(Severity::kError, line, "map.opposed_borders",
+                 fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve,
+                             line.value.right.curve, Turned(line.value)));
+    return false;
   }
-  if (shape.length_m() < kMinCurve_m) return refuse("it has no length");
+  if (shape.length_m() < kMinCurve_m) {
+    findings.Add(Severity::kError, line, "map.empty_lane", "it has no length");
+    return false;
+  }
   const Worst worst = Sample(shape);
   if (worst.widest_m < 0.0) {
-    return refuse(
-        fmt::format("its left curve {} lies to the right of its right curve {}; exchange them, or invert both",
-                    line.value.left.curve, line.value.right.curve));
+    findings.Add(Severity::kError, line, "map.exchanged_borders",
+                 fmt::format("its left curve {} lies to the right of its right curve {}; exchange them, or invert both",
+                             line.value.left.curve, line.value.right.curve));
+    return false;
   }
-  if (worst.crossed) return refuse("its borders cross");
+  if (worst.crossed) {
+    findings.Add(Severity::kError, line, "map.crossed_borders", "its borders cross");
+    return false;
+  }
   if (worst.narrowest_m < kNarrowest_m)
-    findings.Add(Severity::kWarning, line, fmt::format("only {:.2f} m wide where it is narrowest", worst.narrowest_m));
+    findings.Add(Severity::kWarning, line, "map.narrow_lane",
+                 fmt::format("only {:.2f} m wide where it is narrowest", worst.narrowest_m));
   if (worst.widest_m > kWidest_m)
-    findings.Add(Severity::kWarning, line, fmt::format("{:.1f} m wide where it is widest", worst.widest_m));
+    findings.Add(Severity::kWarning, line, "map.wide_lane",
+                 fmt::format("{:.1f} m wide where it is widest", worst.widest_m));
   if (worst.sharpest >= 1.0) {
-    findings.Add(Severity::kWarning, line,
+    findings.Add(Severity::kWarning, line, "map.sharp_bend",
                  fmt::format("it bends with a radius of {:.2f} m, within its own half width", worst.sharpest_radius_m));
   }
   if (worst.steepest > kSteepest)
-    findings.Add(Severity::kWarning, line, fmt::format("its grade reaches {:.0f} %", 100.0 * worst.steepest));
+    findings.Add(Severity::kWarning, line, "map.steep_lane",
+                 fmt::format("its grade reaches {:.0f} %", 100.0 * worst.steepest));
   return true;
 }
 
@@ -114,34 +122,35 @@ void CheckJoint(const Line<Connection>& line, const LaneShape& from, const LaneS
   const double kink = std::acos(std::clamp(end.tangent_W.dot(begin.tangent_W), -1.0, 1.0));
   const double step = begin.z_m - end.z_m;
   if (gap > kWidestGap_m)
-    findings.Add(Severity::kError, line,
+    findings.Add(Severity::kError, line, "map.gap",
                  fmt::format("{:.2f} m lie between the borders of the one where it ends and those of the other where "
                              "it begins; at most {:.2f} m are closed",
                              gap, kWidestGap_m));
   if (kink > kSharpestKink_rad)
-    findings.Add(Severity::kWarning, line,
+    findings.Add(Severity::kWarning, line, "map.kink",
                  fmt::format("the direction jumps by {:.1f} degrees", kink * base::kDegreesPerRadian));
   if (std::abs(step) > kHighestStep_m)
-    findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
+    findings.Add(Severity::kWarning, line, "map.step", fmt::format("the height jumps by {:.3f} m", step));
 }
 
 void CheckPicture(const MapFile& map, Findings& findings) {
   if (map.picture.empty()) return;
   const auto picture = ReadPictureInfo(map.picture);
   if (!picture) {
-    findings.AddToMap(Severity::kError,
-                      fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
+    findings.Add(Severity::kError, "map.wrong_picture",
+                 fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
   } else if (picture->width_px > 16384 || picture->height_px > 16384) {
-    findings.AddToMap(Severity::kError,
-                      fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
-                                  picture->width_px, picture->height_px));
+    findings.Add(Severity::kError, "map.large_picture",
+                 fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown", picture->width_px,
+                             picture->height_px));
   } else if (!picture->ends) {
-    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' end before the {} picture does",
-                                                    map.picture.size(), picture->kind));
+    findings.Add(Severity::kError, "map.wrong_picture",
+                 fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(),
+                             picture->kind));
   } else if (!picture->fits) {
-    findings.AddToMap(Severity::kError,
-                      fmt::format("the {} bytes behind the line 'i' are too few for a {} picture of {} by {} pixels",
-                                  map.picture.size(), picture->kind, picture->width_px, picture->height_px));
+    findings.Add(Severity::kError, "map.wrong_picture",
+                 fmt::format("the {} bytes behind the line 'i' are too few for a {} picture of {} by {} pixels",
+                             map.picture.size(), picture->kind, picture->width_px, picture->height_px));
   }
 }
 
@@ -151,7 +160,7 @@ void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings)
   for (const auto& line : map.curves) {
     const Cubic cubic = BorderOf({}, line.value, heights).plan;
     if (cubic.PolygonLength() < kMinCurve_m)
-      findings.Add(Severity::kError, line, "it is empty: its four points coincide");
+      findings.Add(Severity::kError, line, "map.empty_curve", "it is empty: its four points coincide");
   }
   std::vector<std::optional<LaneShape>> shapes = ShapesOf(map, heights);
   for (std::size_t i = 0; i < shapes.size(); ++i) {

@@ -54,17 +54,18 @@ void CheckWays(const MapFile& map, Findings& findings) {
     if (index.Find(line.value.id) != i) continue;  // its number is another lane's
     const LaneMode mode = line.value.mode;
     if (!leaves[i] && !arrives[i]) {
-      findings.Add(Severity::kError, line, "no connection comes or goes");
+      findings.Add(Severity::kError, line, "map.unconnected_lane", "no connection comes or goes");
     } else if (mode != LaneMode::kEnd && !leaves[i]) {
-      findings.Add(Severity::kError, line, "it leads nowhere: no connection goes on, and it is no end lane");
+      findings.Add(Severity::kError, line, "map.dead_end",
+                   "it leads nowhere: no connection goes on, and it is no end lane");
     } else if (mode == LaneMode::kEnd && leaves[i]) {
-      findings.Add(Severity::kWarning, line, "a connection goes on, but vehicles end here");
+      findings.Add(Severity::kWarning, line, "map.goes_on_behind_end", "a connection goes on, but vehicles end here");
     }
     if (!starts.empty() && !reached[i] && (leaves[i] || arrives[i]))
-      findings.Add(Severity::kWarning, line, "no start lane leads to it");
+      findings.Add(Severity::kWarning, line, "map.unreachable_lane", "no start lane leads to it");
     if (!ends.empty() && !finishes[i] && leaves[i]) {
       const Severity severity = mode == LaneMode::kStart ? Severity::kError : Severity::kWarning;
-      findings.Add(severity, line, "no end lane can be reached from it");
+      findings.Add(severity, line, "map.no_way_to_end", "no end lane can be reached from it");
     }
   }
 }

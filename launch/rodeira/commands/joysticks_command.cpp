@@ -97,7 +97,7 @@ Finding CheckJoysticks(const std::vector<input_devices::JoystickInfo>& connected
   // word.
   if (connected.empty() && closed > 0) {
     return Warning(
-        check,
+        "device.not_readable", check,
         fmt::format(
             "none, but {} devices in {} may not be read: if a wheel is plugged in, add yourself to the group input "
             "(sudo usermod -aG input $USER) and log in again",

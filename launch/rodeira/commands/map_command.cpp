@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/json_text.hpp"
 #include "common/core/base/print_error.hpp"
+#include "common/core/base/printable.hpp"
 #include "common/traffic/signals/map_lights.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/map_network.hpp"
@@ -25,13 +27,26 @@ namespace {
 std::optional<traffic_map::Finding> CheckDriven(const traffic_map::MapFile& file, const traffic_map::Heights& companion,
                                                 const std::string& path) {
   const auto wrong = [](const base::Error& error) {
-    return traffic_map::Finding{traffic_map::Severity::kError, traffic_map::Element::kMap, 0, 0, 0, error.message};
+    return traffic_map::Finding{
+        traffic_map::Severity::kError, traffic_map::Element::kMap, 0, 0, 0, error.id, error.message};
   };
   const auto made = traffic_map::MakeLaneMap(file, companion, path);
   if (!made) return wrong(made.error());
   const auto network = traffic_map::ToNetwork(made.value(), path);
   if (!network) return wrong(network.error());
   return traffic::LightsTogether(made.value(), companion, *network.value());
+}
+
+// As an error, but "warning:" in front of the sentence, and the status 0 in JSON.
+void PrintWarning(const traffic_map::Finding& finding, const std::string& path) {
+  const std::string place = base::Printable(finding.Place(path)), text = finding.Text();
+  if (base::ErrorsAreJson())
+    fmt::print(stderr,
+               R"({{"id":{},"message":{},"context":{},"status":0}})"
+               "\n",
+               base::JsonText(finding.id.text()), base::JsonText(text), base::JsonText(place));
+  else
+    fmt::print(stderr, "rodeira: {}: warning: {}\n", place, text);
 }
 
 int CheckMapFile(const std::string& path) {
@@ -48,9 +63,9 @@ int CheckMapFile(const std::string& path) {
   int status = 0;
   for (const traffic_map::Finding& finding : findings) {
     if (finding.severity == traffic_map::Severity::kError)
-      status = base::PrintError("rodeira", base::WrongInput("world.wrong_map", finding.Text(), finding.Place(path)));
+      status = base::PrintError("rodeira", base::WrongInput(finding.id, finding.Text(), finding.Place(path)));
     else
-      fmt::print(stderr, "rodeira: {}: warning: {}\n", base::Printable(finding.Place(path)), finding.Text());
+      PrintWarning(finding, path);
   }
   fmt::print("{}", traffic_map::DescribeMap(file.value(), heights.value(), findings));
   return status;

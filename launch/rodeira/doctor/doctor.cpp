@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "common/core/base/installation.hpp"
+#include "common/core/base/json_text.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "common/runtime/dds/network_state.hpp"
 #include "common/vehicle/input_devices/device_access.hpp"
@@ -37,7 +39,8 @@ using CheckFunction = std::function<Finding()>;
 Finding LookForJoysticks() {
   auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks)
-    return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
+    return Warning("device.not_opened", "joysticks",
+                   joysticks.error().Text() + "; a run without `source: joystick` needs none");
   joysticks.value()->Update();
   return CheckJoysticks(joysticks.value()->Connected());
 }
@@ -55,10 +58,12 @@ Finding AskForJoysticks() {
   const std::string line = said.FirstLine();
   for (const Verdict verdict : {Verdict::kOk, Verdict::kWarning}) {
     const std::string begin = std::string(WordOf(verdict)) + "\t";
-    if (said.well() && line.starts_with(begin)) return {check, verdict, line.substr(begin.size())};
+    if (said.well() && line.starts_with(begin))
+      return {check, verdict, line.substr(begin.size()), "device.not_readable"};
   }
-  return Warning(check, fmt::format("not looked for: rodeira-graphics {}",
-                                    said.too_late ? "does not answer within 20 s" : "does not start: " + line));
+  return Warning("system.no_graphics", check,
+                 fmt::format("not looked for: rodeira-graphics {}",
+                             said.too_late ? "does not answer within 20 s" : "does not start: " + line));
 }
 
 // A PC with the package rodeira-headless alone.
@@ -132,6 +137,11 @@ std::string Summary(std::span<const Finding> findings) {
 }  // namespace
 
 std::string FindingLine(const Finding& finding) {
+  if (base::ErrorsAreJson())
+    return fmt::format(R"({{"id":{},"check":{},"verdict":"{}","message":{}}})"
+                       "\n",
+                       finding.verdict == Verdict::kOk ? "null" : base::JsonText(finding.id.text()),
+                       base::JsonText(finding.check), WordOf(finding.verdict), base::JsonText(finding.sentence));
   return fmt::format("{:<7}  {:<17}  {}\n", WordOf(finding.verdict), finding.check, finding.sentence);
 }
 
@@ -163,7 +173,7 @@ int Doctor(const DoctorOptions& options) {
     fmt::print("{}", FindingLine(findings.back()));
     std::fflush(stdout);
   }
-  if (!options.quiet) fmt::print("{}", Summary(findings));
+  if (!options.quiet && !base::ErrorsAreJson()) fmt::print("{}", Summary(findings));
   return StatusOf(findings);
 }
 

@@ -21,7 +21,8 @@ struct DoctorOptions {
   std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;  // … with this segment
 };
 
-// One line of the table, with its line break.
+// One line of the table, with its line break; after PrintErrorsAsJson: an object with id (null: it is well), check,
+// verdict and message.
 std::string FindingLine(const Finding& finding);
 // 0, or 1 where there is a fault.
 int StatusOf(std::span<const Finding> findings);

@@ -211,8 +211,9 @@ Finding CheckGl(const GlSettings& settings) {
   std::string why = LineWith(drawing.output, "fault");
   if (drawing.too_late) why = "drawing took more than 30 s";
   if (!drawing.status && !drawing.too_late) why = "the driver crashed";
-  return Fault("GL", fmt::format("no off-screen picture can be drawn: {}; without it the view node cannot run: {}", why,
-                                 kInstall));
+  return Fault(
+      "system.no_gl", "GL",
+      fmt::format("no off-screen picture can be drawn: {}; without it the view node cannot run: {}", why, kInstall));
 }
 
 }  // namespace rodeira::cli

@@ -101,14 +101,15 @@ Finding CheckPackages(const std::vector<std::string>& packages, const std::strin
   if (packages.empty()) return Ok(check, "a run needs no packages beside those of its libraries");
   if (::access(dpkg_query.c_str(), X_OK) != 0) {
     return Warning(
-        check, fmt::format("there is no {}: this is not Debian, and the packages that a run needs cannot be checked",
-                           dpkg_query));
+        "system.no_dpkg", check,
+        fmt::format("there is no {}: this is not Debian, and the packages that a run needs cannot be checked",
+                    dpkg_query));
   }
   std::vector<std::string> command{dpkg_query, "-W", "-f", "is ${Package} ${Status}\n"};
   command.insert(command.end(), packages.begin(), packages.end());
   const Captured asked = CaptureProgram(command, 20s);
   if (asked.status != 0 && asked.status != 1)
-    return Warning(check, fmt::format("{} says nothing: {}", dpkg_query, asked.FirstLine()));
+    return Warning("system.no_dpkg", check, fmt::format("{} says nothing: {}", dpkg_query, asked.FirstLine()));
   std::set<std::string> installed;
   std::istringstream lines(asked.output);
   for (std::string line; std::getline(lines, line);) {
@@ -121,8 +122,9 @@ Finding CheckPackages(const std::vector<std::string>& packages, const std::strin
     if (!installed.contains(package)) missing.push_back(package);
   }
   if (!missing.empty()) {
-    return Fault(check, fmt::format("{} not installed: sudo apt-get install {}",
-                                    missing.size() == 1 ? "a package is" : "packages are", fmt::join(missing, " ")));
+    return Fault("system.no_package", check,
+                 fmt::format("{} not installed: sudo apt-get install {}",
+                             missing.size() == 1 ? "a package is" : "packages are", fmt::join(missing, " ")));
   }
   return Ok(check, fmt::format("all {} packages that a run needs are installed", packages.size()));
 }
@@ -138,27 +140,31 @@ Finding CheckPrograms(const std::vector<std::string>& programs, const std::files
   const char* remedy = base::IsInstalled(folder) ? "install the packages again (sudo apt-get install --reinstall "
                                                    "rodeira-headless rodeira)"
                                                  : "build again (ninja -C build) or copy the whole folder";
-  return Fault("programs", fmt::format("in {}: {}; {}", folder.string(), fmt::join(problems, ", "), remedy));
+  return Fault("system.broken_program", "programs",
+               fmt::format("in {}: {}; {}", folder.string(), fmt::join(problems, ", "), remedy));
 }
 
 Finding CheckGeodata(const base::Status& loaded) {
   const std::string check = "geodata";
-  return loaded ? Ok(check, "elevation files and projections can be read") : Fault(check, loaded.error().Text());
+  return loaded ? Ok(check, "elevation files and projections can be read")
+                : Fault(loaded.error().id, check, loaded.error().Text());
 }
 
 Finding CheckMathematics(bool fixed, base::Digest digest) {
   const std::string check = "mathematics";
   if (!fixed) {
     return Fault(
-        check, fmt::format("the mathematics library chose its code by this processor (digest {}): runs will not give "
-                           "the same bits elsewhere; "
-                           "set GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 before the start (is /proc mounted?)",
-                           base::Hex(digest)));
+        "system.free_mathematics", check,
+        fmt::format("the mathematics library chose its code by this processor (digest {}): runs will not give "
+                    "the same bits elsewhere; "
+                    "set GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 before the start (is /proc mounted?)",
+                    base::Hex(digest)));
   }
   if (digest == kDebian12Mathematics) return Ok(check, fmt::format("digest {}, that of Debian 12", base::Hex(digest)));
-  return Warning(check, fmt::format("digest {} (glibc {}), that of Debian 12 is {}: only PCs with the same digest can "
-                                    "share a run or compare digests",
-                                    base::Hex(digest), ::gnu_get_libc_version(), base::Hex(kDebian12Mathematics)));
+  return Warning("system.other_mathematics", check,
+                 fmt::format("digest {} (glibc {}), that of Debian 12 is {}: only PCs with the same digest can "
+                             "share a run or compare digests",
+                             base::Hex(digest), ::gnu_get_libc_version(), base::Hex(kDebian12Mathematics)));
 }
 
 Finding CheckSockets(const std::filesystem::path& proc) {
@@ -168,14 +174,15 @@ Finding CheckSockets(const std::filesystem::path& proc) {
   for (const char* name : {"rmem_max", "wmem_max"}) {
     const auto bytes = NumberIn(proc / "sys/net/core" / name);
     if (!bytes)
-      return Warning(check, fmt::format("{} cannot be read; at least {} bytes were expected there",
-                                        (proc / "sys/net/core" / name).string(), kSocketBufferBytes));
+      return Warning("system.small_socket_buffer", check,
+                     fmt::format("{} cannot be read; at least {} bytes were expected there",
+                                 (proc / "sys/net/core" / name).string(), kSocketBufferBytes));
     found += fmt::format("{}net.core.{} is {}", found.empty() ? "" : ", ", name, *bytes);
     if (*bytes < kSocketBufferBytes) small.push_back(fmt::format("net.core.{}=4194304", name));
   }
   if (small.empty()) return Ok(check, found);
   return Warning(
-      check,
+      "system.small_socket_buffer", check,
       fmt::format(
           "{}; at least {} were expected, or UDP between PCs loses samples and sends them again: sudo sysctl -w {}",
           found, kSocketBufferBytes, fmt::join(small, " ")));
@@ -200,14 +207,14 @@ Finding CheckDisplay(const DisplayPlace& place) {
   if (place.x11.empty() && place.wayland.empty())
     return Ok(check, "none (neither DISPLAY nor WAYLAND_DISPLAY is set): pictures are drawn off-screen");
   return Warning(
-      check,
+      "system.no_display", check,
       fmt::format("DISPLAY='{}' and WAYLAND_DISPLAY='{}' lead to no display server: pictures are drawn off-screen",
                   place.x11, place.wayland));
 }
 
 Finding CheckCores(unsigned int cores) {
   if (cores >= 2) return Ok("cores", fmt::format("{} are there", cores));
-  return Warning("cores",
+  return Warning("system.few_cores", "cores",
                  fmt::format("{} was found; at least 2 were expected, or a run of several processes is slow", cores));
 }
 
@@ -219,11 +226,13 @@ Finding CheckMemory(const std::filesystem::path& proc) {
     const std::uint64_t bytes = kib * 1024;
     if (bytes >= kMemoryBytes)
       return Ok("memory", fmt::format("{:.0f} MB are free", static_cast<double>(bytes) / kBytesPerMegabyte));
-    return Warning("memory", fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs",
-                                         static_cast<double>(bytes) / kBytesPerMegabyte,
-                                         static_cast<double>(kMemoryBytes) / kBytesPerMegabyte));
+    return Warning("system.little_memory", "memory",
+                   fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs",
+                               static_cast<double>(bytes) / kBytesPerMegabyte,
+                               static_cast<double>(kMemoryBytes) / kBytesPerMegabyte));
   }
-  return Warning("memory", fmt::format("{} does not say how much is free", (proc / "meminfo").string()));
+  return Warning("system.little_memory", "memory",
+                 fmt::format("{} does not say how much is free", (proc / "meminfo").string()));
 }
 
 Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_bytes) {
@@ -233,7 +242,7 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   while (!std::filesystem::exists(there, problem) && there.has_relative_path()) there = there.parent_path();
   struct statvfs info {};
   if (!std::filesystem::is_directory(there, problem)) {
-    return Fault(check,
+    return Fault("system.no_recording_folder", check,
                  fmt::format("recordings go to {}, but {} is no folder; set XDG_DATA_HOME or name each by --record",
                              folder.string(), there.string()));
   }
@@ -241,7 +250,7 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   if (refused.empty() && ::statvfs(there.c_str(), &info) != 0) refused = std::strerror(errno);
   if (!refused.empty()) {
     return Fault(
-        check,
+        "system.no_recording_folder", check,
         fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record",
                     folder.string(), there.string(), refused));
   }
@@ -249,8 +258,9 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(),
                                         static_cast<double>(free_bytes) / kBytesPerMegabyte);
   if (free_bytes >= wanted_bytes) return Ok(check, found);
-  return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found,
-                                    static_cast<double>(wanted_bytes) / kBytesPerMegabyte));
+  return Warning("system.full_disk", check,
+                 fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found,
+                             static_cast<double>(wanted_bytes) / kBytesPerMegabyte));
 }
 
 }  // namespace rodeira::cli

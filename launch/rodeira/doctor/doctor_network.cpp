@@ -49,15 +49,16 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
   std::error_code gone;
   if (!std::filesystem::is_directory(folder, gone)) {
     return Fault(
-        check,
+        "system.no_shared_memory", check,
         fmt::format(
             "there is no folder {0}; a tmpfs was expected there: sudo mount -t tmpfs tmpfs {0}, or use transport: udp",
             where));
   }
   if (const std::string problem = WriteProblem(folder); !problem.empty()) {
-    return Fault(check, fmt::format("{0} takes no files ({1}); it was expected to be writable for everybody: sudo "
-                                    "chmod 1777 {0}, or use transport: udp",
-                                    where, problem));
+    return Fault("system.no_shared_memory", check,
+                 fmt::format("{0} takes no files ({1}); it was expected to be writable for everybody: sudo "
+                             "chmod 1777 {0}, or use transport: udp",
+                             where, problem));
   }
   struct statvfs info {};
   const std::uint64_t free_bytes =
@@ -71,12 +72,13 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
       fmt::format("{} has {:.0f} MB free", where, static_cast<double>(free_bytes) / kBytesPerMegabyte);
   if (free_bytes < wanted_bytes) {
     const std::uint32_t segment_kib = SegmentThatFits(free_bytes, kProcesses);
-    return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: a run of {} processes uses {} instead; {}",
-                                      found, static_cast<double>(wanted_bytes) / kBytesPerMegabyte, kProcesses,
-                                      segment_kib == 0 ? "UDP" : fmt::format("segments of {} KiB", segment_kib),
-                                      left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
+    return Warning("system.little_shared_memory", check,
+                   fmt::format("{}; at least {:.0f} MB were expected: a run of {} processes uses {} instead; {}", found,
+                               static_cast<double>(wanted_bytes) / kBytesPerMegabyte, kProcesses,
+                               segment_kib == 0 ? "UDP" : fmt::format("segments of {} KiB", segment_kib),
+                               left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
   }
-  if (!left.empty()) return Warning(check, fmt::format("{}; {}", found, left));
+  if (!left.empty()) return Warning("system.left_over_files", check, fmt::format("{}; {}", found, left));
   return Ok(check, found);
 }
 
@@ -88,15 +90,16 @@ Finding CheckPorts(std::uint32_t domain) {
   }
   if (taken.empty())
     return Ok("ports", fmt::format("UDP {} to {} (domain {}) are free", ports.front(), ports.back(), domain));
-  return Warning("ports", fmt::format("UDP {} (domain {}) {} taken by another program, maybe of the same domain; where "
-                                      "that is not wanted, choose another --domain",
-                                      fmt::join(taken, ", "), domain, taken.size() == 1 ? "is" : "are"));
+  return Warning("system.used_port", "ports",
+                 fmt::format("UDP {} (domain {}) {} taken by another program, maybe of the same domain; where "
+                             "that is not wanted, choose another --domain",
+                             fmt::join(taken, ", "), domain, taken.size() == 1 ? "is" : "are"));
 }
 
 Finding CheckLoopBackInterface(const std::vector<std::string>& addresses) {
   const std::string check = "loop-back";
   if (std::ranges::find(addresses, "127.0.0.1") != addresses.end()) return Ok(check, "127.0.0.1 is up");
-  return Warning(check,
+  return Warning("system.no_loop_back", check,
                  "no running interface has the address 127.0.0.1, which runs with recovery: restart and UDP on one PC "
                  "need: sudo ip link set lo up");
 }
@@ -108,11 +111,12 @@ Finding CheckLoopBack(const LoopBackSettings& given) {
   if (const auto free_bytes = dds::FreeSharedMemory(); shared && free_bytes) {
     settings.segment_kib = SegmentThatFits(free_bytes.value(), 2);
     if (settings.segment_kib == 0)
-      return Warning(check, "not measured: shared memory has no room for two processes; runs use UDP");
+      return Warning("system.little_shared_memory", check,
+                     "not measured: shared memory has no room for two processes; runs use UDP");
   }
   const auto measured = MeasureLoopBack(settings);
   if (!measured) {
-    return Fault(check,
+    return Fault("system.no_dds", check,
                  fmt::format("{}; {}", measured.error().Text(),
                              shared ? "look at 'shared memory' above, or use transport: udp"
                                     : "is the loop-back interface up (ip link show lo), does a firewall drop UDP?"));

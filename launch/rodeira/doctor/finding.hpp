@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "common/core/base/error_id.hpp"
+
 namespace rodeira::cli {
 
 inline constexpr double kBytesPerMegabyte = 1e6;
@@ -18,17 +20,18 @@ enum class Verdict {
 struct Finding {
   std::string check;  // "shared memory"
   Verdict verdict = Verdict::kOk;
-  std::string sentence;  // what was found and, where that is not well, what was expected and what to do
+  std::string sentence;   // what was found and, where that is not well, what was expected and what to do
+  base::ErrorId id = {};  // of what is not well
 };
 
 inline Finding Ok(std::string check, std::string sentence) {
   return {std::move(check), Verdict::kOk, std::move(sentence)};
 }
-inline Finding Warning(std::string check, std::string sentence) {
-  return {std::move(check), Verdict::kWarning, std::move(sentence)};
+inline Finding Warning(base::ErrorId id, std::string check, std::string sentence) {
+  return {std::move(check), Verdict::kWarning, std::move(sentence), id};
 }
-inline Finding Fault(std::string check, std::string sentence) {
-  return {std::move(check), Verdict::kFault, std::move(sentence)};
+inline Finding Fault(base::ErrorId id, std::string check, std::string sentence) {
+  return {std::move(check), Verdict::kFault, std::move(sentence), id};
 }
 
 }  // namespace rodeira::cli

@@ -101,8 +101,15 @@ TEST(JsonErrors, AreOneForEachFinding) {
   const TemporaryFolder folder;
   const std::string map = folder.Write("a.motors", traffic_map::kGoodLines + "c,1,7,False\nc,1,8,False\ns,10\ni\n");
   EXPECT_THAT(ErrorsOf({"map", "check", map, "--json"}),
-              ElementsAre("2", "world.wrong_map | " + map + ":12 | connection 1 to 7: lane 7 does not exist | 2",
-                          "world.wrong_map | " + map + ":13 | connection 1 to 8: lane 8 does not exist | 2"));
+              ElementsAre("2", "map.no_lane | " + map + ":12 | connection 1 to 7: lane 7 does not exist | 2",
+                          "map.no_lane | " + map + ":13 | connection 1 to 8: lane 8 does not exist | 2"));
+}
+
+TEST(JsonErrors, OfAWarningHaveStatusZero) {
+  const TemporaryFolder folder;
+  const std::string map = folder.Write("a.motors", traffic_map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n");
+  EXPECT_THAT(ErrorsOf({"map", "check", map, "--json"}),
+              ElementsAre("0", "map.unused_curve | " + map + ":12 | curve 9: no lane uses it | 0"));
 }
 
 TEST(JsonErrors, OfARunNameItsFault) {

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 
@@ -16,9 +18,9 @@ using system_test::RunCommand;
 using ::testing::HasSubstr;
 
 TEST(Doctor, AFaultIsStatusOneAWarningIsNot) {
-  EXPECT_EQ(StatusOf(std::vector<Finding>{Ok("a", "b"), Warning("c", "d")}), 0);
-  EXPECT_EQ(StatusOf(std::vector<Finding>{Ok("a", "b"), Fault("c", "d"), Ok("e", "f")}), 1);
-  EXPECT_EQ(FindingLine(Fault("GL", "no driver")), "fault    GL                 no driver\n");
+  EXPECT_EQ(StatusOf(std::vector<Finding>{Ok("a", "b"), Warning("system.few_cores", "c", "d")}), 0);
+  EXPECT_EQ(StatusOf(std::vector<Finding>{Ok("a", "b"), Fault("system.no_gl", "c", "d"), Ok("e", "f")}), 1);
+  EXPECT_EQ(FindingLine(Fault("system.no_gl", "GL", "no driver")), "fault    GL                 no driver\n");
 }
 
 TEST(Doctor, SaysALineACheck) {
@@ -44,6 +46,20 @@ TEST(Doctor, QuietSaysOnlyWhatIsNotWell) {
                                    file.string() + " is no folder"))
       << ended.out;
   EXPECT_FALSE(ended.out.starts_with("ok ") || ended.out.find("\nok ") != std::string::npos) << ended.out;
+}
+
+TEST(Doctor, AsJsonEachFindingIsAnObjectWithItsId) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("file", "in the way");
+  const auto ended = RunCommand({"XDG_DATA_HOME=" + file.string(), Bin("rodeira"), "doctor", "--quiet", "--json",
+                                 "--transport", "udp", "--domain", "228"});
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_THAT(ended.out,
+              HasSubstr(R"({"id":"system.no_recording_folder","check":"disk","verdict":"fault","message":)"));
+  std::istringstream lines(ended.out);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_THAT(line,
+                ::testing::MatchesRegex(R"(\{"id":"[a-z]+\.[a-z_]+","check":".*","verdict":".*","message":".*"\})"));
 }
 
 TEST(Doctor, WithoutMesaItIsAFault) {
