@@ -353,6 +353,7 @@ TEST(NetworkTraffic, NoCarDrivesIntoOneThatStandsOnTheCrossing) {
         ASSERT_FALSE(driver::Overlap(FootprintOf(pose, model.traits(pose.id)), others[0]))
             << pose.id << " at " << 0.01 * i << " s";
     }
+    EXPECT_FALSE(model.poses().empty());
   }
 }
 

@@ -58,6 +58,7 @@ TEST(TrafficCommands, AFollowerStopsBehind) {
   TrafficModel model = Made(12, 900.0);
   Pass(model, 5.0);
   model.Brake(4, 9.0);
+  int pairs = 0;
   for (int i = 0; i < 2500; ++i) {
     model.Step(kStep_s, {});
     for (const AgentPose& a : model.poses()) {
@@ -65,9 +66,11 @@ TEST(TrafficCommands, AFollowerStopsBehind) {
         if (a.id >= b.id || a.lane != b.lane) continue;
         const double room = 0.5 * (model.traits(a.id).length_m + model.traits(b.id).length_m);
         ASSERT_GT((a.p_WB_W - b.p_WB_W).norm(), room) << a.id << " and " << b.id << " at " << i * kStep_s << " s";
+        ++pairs;
       }
     }
   }
+  EXPECT_GT(pairs, 2500);
 }
 
 TEST(TrafficCommands, ACappedAgentIsNeverFasterAndDrivesTheCap) {

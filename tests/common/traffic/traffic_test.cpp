@@ -144,6 +144,7 @@ TEST(Traffic, StandsOnTheGroundOfSuelo) {
   TrafficModel model = Made(settings, world);
   const auto ground = world->MakeGround();
   for (int i = 0; i < 3000; ++i) model.Step(kStep_s, {});
+  ASSERT_FALSE(model.poses().empty());
   for (const AgentPose& pose : model.poses()) {
     const AgentTraits& traits = model.traits(pose.id);
     for (const double along : {0.5, -0.5}) {
@@ -200,12 +201,15 @@ TEST(Traffic, TheOtherLaneDoesNotCare) {
   TrafficSettings settings;
   settings.vehicles = 10;
   TrafficModel model = Made(settings, world, standing);
+  int other_lane = 0;
   for (int i = 0; i < 6000; ++i) {
     model.Step(kStep_s, standing);
     for (const AgentPose& pose : model.poses()) {
       ASSERT_GT(pose.speed_mps, pose.lane == 1 ? 10.0 : -1.0);
+      other_lane += pose.lane == 1;
     }
   }
+  EXPECT_GT(other_lane, 6000);
 }
 
 TEST(Traffic, TheSeedAloneDecides) {

@@ -46,6 +46,8 @@ TEST(Parked, APulledHandbrakeIsReleasedByThePuller) {
 
 TEST(Parked, ACarThatMovesIsNotHeld) {
   const LiveDrive moves = DriveOnAHill({}, 1000, ", start: {speed_mps: 15}");
+  ASSERT_TRUE(moves.controls.contains(10) && moves.controls.contains(1000));
+  EXPECT_GT(Speed(moves), 10.0);
   for (const auto& [step, controls] : moves.controls) EXPECT_EQ(controls.handbrake(), 0.0) << step;
 }
 

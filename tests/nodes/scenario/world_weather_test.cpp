@@ -65,6 +65,7 @@ TEST(WorldWeather, HoldsWhereTheScenarioSaysNone) {
 // the clouds; the rest stays the world's.
 TEST(WorldWeather, TheScenariosOwnStandsAboveIt) {
   const auto published = WeatherIn(kDusk, "weather:\n  - {hour: 8}\n  - {at_s: 0.5, over_s: 0.4, clouds: 0}\n", 1200);
+  ASSERT_GT(published.size(), 110u);
   for (const auto& [step, now] : published) {
     const double t = static_cast<double>(step) * 1e-3;
     EXPECT_EQ(now.hour(), 8.0) << step;

@@ -25,6 +25,7 @@ std::string Refused(std::string_view text) {
 }
 
 TEST(IdlReader, ReadsEveryTextOfTheProject) {
+  ASSERT_FALSE(idl::IdlTexts().empty());
   for (const idl::IdlText& text : idl::IdlTexts()) {
     const auto types = IdlTypes::Read(text.text, text.subject);
     ASSERT_TRUE(types.ok()) << types.error().Text();

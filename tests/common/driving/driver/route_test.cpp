@@ -2,7 +2,9 @@
 // Routes through networks, and a car that is driven along them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "common/core/base/random.hpp"
 #include "common/driving/driver/autopilot.hpp"
@@ -132,16 +134,18 @@ double Steepest(const road::World& world) {
 // Two roads of 10 m that climb by 1 in 1 and lean by 45 degrees: the normal is along (-1, sqrt 2, 1), the ground 60
 // degrees steep, and asphalt has a friction of 1.
 TEST(RoutePath, NoCarStandsOnTheOneRealFileThatIsNotDriven) {
-  for (const auto& file : opendrive::RealFiles()) {
-    if (file.stem() != "esmini_two_pitched_and_rolled_roads") continue;
-    const auto world = road::World::Load(file).value();
-    EXPECT_NEAR(Steepest(*world), std::sqrt(3.0), 1e-5);
-    const road::StartPose& start = world->start();
-    const road::SurfacePoint ground = world->At(start.x_m, start.y_m);
-    EXPECT_NEAR(ground.slope_x, 1.0, 1e-5);
-    EXPECT_NEAR(ground.slope_y, -std::sqrt(2.0), 1e-5);
-    EXPECT_EQ(ground.friction, 1.0);
-  }
+  const auto files = opendrive::RealFiles();
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  const auto file = std::ranges::find(files, "esmini_two_pitched_and_rolled_roads",
+                                      [](const std::filesystem::path& path) { return path.stem(); });
+  ASSERT_NE(file, files.end());
+  const auto world = road::World::Load(*file).value();
+  EXPECT_NEAR(Steepest(*world), std::sqrt(3.0), 1e-5);
+  const road::StartPose& start = world->start();
+  const road::SurfacePoint ground = world->At(start.x_m, start.y_m);
+  EXPECT_NEAR(ground.slope_x, 1.0, 1e-5);
+  EXPECT_NEAR(ground.slope_y, -std::sqrt(2.0), 1e-5);
+  EXPECT_EQ(ground.friction, 1.0);
 }
 
 TEST(RoutePath, TheAutopilotDrivesEveryRealFile) {

@@ -38,6 +38,7 @@ TEST(UsedTopics, AreTheNodesPortsAndItsProtocol) {
 }
 
 TEST(UsedTopics, OfEveryNodeHaveAType) {
+  ASSERT_FALSE(Demo().nodes().empty());
   for (lockstep::NodeIndex n = 0; n < Demo().nodes().size(); ++n) {
     for (const std::string& topic : UsedTopics(Demo(), n)) EXPECT_NE(idl::TypeOf(topic), nullptr) << topic;
   }

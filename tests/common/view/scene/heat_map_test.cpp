@@ -171,6 +171,7 @@ TEST(HeatMap, ADriversCarSaysWhatItBurns) {
     moment.cars[0].fuel_used_l = 0.4 * i * 7.0 / 1e5;
     map.Add(moment);
   }
+  ASSERT_FALSE(map.cells().empty());
   for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kFuel, cell), 7.0, 1e-6);
 }
 

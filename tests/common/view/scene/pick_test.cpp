@@ -18,18 +18,21 @@ TEST(Pick, TheRayOfAPlaceLeadsThroughWhatIsSeenThere) {
   CarPose car;
   car.p_WB_W = {30.0, -12.0, 4.0};
   car.q_WB = Attitude(0.8, 0.02, 0.01);
+  int seen = 0;
   for (const Camera& camera : Cameras(car)) {
     for (const Eigen::Vector3d& p_B :
          {Eigen::Vector3d(12.0, 1.0, 0.5), Eigen::Vector3d(25.0, -3.0, 0.0), Eigen::Vector3d(8.0, 3.0, 1.5)}) {
       const Eigen::Vector3d p_W = car.p_WB_W + car.q_WB * p_B;
       const auto at = camera.Project(p_W, kWidth, kHeight);
       if (!at) continue;
+      ++seen;
       const Ray ray = RayAt(camera, *at, kWidth, kHeight);
       const Eigen::Vector3d to = p_W - ray.from_W;
       EXPECT_NEAR((to - to.dot(ray.along_W) * ray.along_W).norm(), 0.0, 1e-9);
       EXPECT_GT(to.dot(ray.along_W), 0.0);
     }
   }
+  EXPECT_GT(seen, 2);
 }
 
 TEST(Pick, TheFirstCarOnTheRayIsMeant) {

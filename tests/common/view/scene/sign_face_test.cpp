@@ -197,6 +197,7 @@ TEST(SignFace, ColoursOfTheConvention) {
 }
 
 TEST(SignFace, PlatesAreConvexAndCounterClockwise) {
+  ASSERT_FALSE(FaceKinds().empty());
   for (const std::string& kind : FaceKinds()) {
     const auto outline = PlateOutline(kind);
     ASSERT_GE(outline.size(), 3u);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -104,8 +105,10 @@ TEST(Junction, LanesGoOnWithoutAStep) {
 // (docs/explanation/ground.md says how far off they are; SUELO answers by the surface itself).
 TEST(Junction, WaysLieOnTheSurface) {
   const network::Network& network = *Made().network;
+  const auto is_way = [](const network::Road& road) { return !road.spec().junction.empty(); };
+  ASSERT_TRUE(std::ranges::any_of(network.roads(), is_way));
   for (const network::Road& way : network.roads()) {
-    if (way.spec().junction.empty()) continue;
+    if (!is_way(way)) continue;
     const JunctionSurface& surface = *Made().junctions[way.spec().junction == "j1" ? 0 : 1];
     for (std::uint64_t i = 0; i < 400; ++i) {
       const double s = base::RandomUniform({i, 1}, 0.0, way.length_m());

@@ -37,6 +37,7 @@ TEST(LaneCurve, IsTheMiddleOfTheLane) {
 TEST(LaneCurve, MeasuresItsOwnLength) {
   const auto network = MapNetwork("roundabout");
   const Graph graph(*network);
+  ASSERT_FALSE(graph.tracks().empty());
   for (const Track& track : graph.tracks()) {
     double length = 0.0;
     Eigen::Vector2d last = track.curve.At(0.0).p_W.head<2>();
@@ -71,6 +72,7 @@ TEST(LaneCurve, GoesThroughAllOfItsNodes) {
 TEST(LaneCurve, FindsTheFootOfAPointBesideIt) {
   const auto network = MapNetwork("town");
   const Graph graph(*network);
+  ASSERT_FALSE(graph.tracks().empty());
   for (const Track& track : graph.tracks()) {
     for (double d = 1.0; d < track.length_m() - 1.0; d += 3.3) {
       const CurvePoint at = track.curve.At(d);

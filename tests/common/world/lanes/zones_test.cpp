@@ -107,6 +107,22 @@ TEST(Zones, LevelsDoNotMeet) {
   const auto network = MapNetwork("overpass");
   const Graph graph(*network);
   const Zones zones(graph);
+  int crossings = 0;  // in the plan, one way over the other
+  for (const Track& under : graph.tracks()) {
+    for (const Track& over : graph.tracks()) {
+      const double d_m = 0.5 * over.length_m();
+      const Eigen::Vector3d p = over.curve.At(d_m).p_W;
+      for (double at_m = 0.0; at_m < under.length_m(); at_m += 0.5) {
+        const Eigen::Vector3d q = under.curve.At(at_m).p_W;
+        if ((p - q).head<2>().norm() < 1.0 && p.z() > q.z() + 3.0) {
+          ++crossings;
+          break;
+        }
+      }
+    }
+  }
+  EXPECT_GT(crossings, 0);
+  ASSERT_FALSE(zones.zones().empty());
   for (const Zone& zone : zones.zones()) {
     const double z0 = graph[zone.track[0]].curve.At(0.5 * (zone.in_m[0] + zone.out_m[0])).p_W.z();
     const double z1 = graph[zone.track[1]].curve.At(0.5 * (zone.in_m[1] + zone.out_m[1])).p_W.z();

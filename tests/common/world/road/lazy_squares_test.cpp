@@ -63,6 +63,7 @@ TEST(LazySquares, ThreadsThatComeTogetherGetTheSame) {
     });
   }
   for (std::thread& thread : threads) thread.join();
+  ASSERT_EQ(got.front().size(), 6400u);
   for (const auto& of : got) EXPECT_EQ(of, got.front());
 }
 

@@ -46,6 +46,7 @@ TEST_F(N222, IsAsLongBentAndWideAsItsModel) {
 
 TEST_F(N222, CurvatureHasNoJumps) {
   const auto& elements = road_.axis().elements();
+  ASSERT_GT(elements.size(), 50u);
   for (std::size_t i = 1; i < elements.size(); ++i)
     EXPECT_EQ(elements[i - 1].curvature_end_1pm, elements[i].curvature_start_1pm) << i;
   EXPECT_TRUE(WorldWarnings(SourceDir() + "/configs/worlds/n222.yaml").empty());
@@ -115,13 +116,16 @@ TEST_F(N222, ClimbsThroughABendToTheLeft) {
 }
 
 TEST_F(N222, MarksKeepTheConventionsMeasures) {
+  int dashed = 0;
   for (const network::PaintedLine& line : road_.spec().lines) {
     EXPECT_GE(line.width_m, 0.10);
     if (line.gap_m == 0.0) continue;
+    ++dashed;
     EXPECT_TRUE(line.stroke_m >= 2.0 && line.stroke_m <= 10.0);
     // Ordinary strokes are shorter than their gaps; approach strokes are two to three times as long.
     EXPECT_TRUE(line.stroke_m < line.gap_m || (line.stroke_m >= 2.0 * line.gap_m && line.stroke_m <= 3.0 * line.gap_m));
   }
+  EXPECT_GT(dashed, 10);
 }
 
 // Ordinary strokes on the middle line: there overtaking is legal. Everywhere on such a stretch a driver's eye sees the

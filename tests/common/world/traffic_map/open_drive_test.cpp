@@ -109,6 +109,7 @@ TEST_P(Drive, EveryLaneLiesWithinACentimetre) {
 }
 
 TEST_P(Drive, PiecesMeet) {
+  ASSERT_FALSE(roads_.empty());
   for (const auto& [id, road] : roads_) {
     for (pugi::xml_node piece = road.child("planView").first_child(); piece.next_sibling();
          piece = piece.next_sibling()) {
