@@ -5,6 +5,7 @@
 
 namespace rodeira::base {
 
+// Kind of a line of Log.
 enum class LogLevel {
   kInfo,     // "rodeira: info: …"
   kWarning,  // "rodeira: warning: …": the run goes on without something

@@ -17,6 +17,7 @@ namespace rodeira::base {
 // The file of a program in $PATH; nothing where it is in none of its directories.
 std::optional<std::filesystem::path> FindInPath(std::string_view program);
 
+// A program to run, and how RunProgram waits for it.
 struct ProgramRun {
   std::filesystem::path program;
   std::vector<std::string> arguments;                            // without the program's own name
@@ -28,6 +29,7 @@ struct ProgramRun {
   std::function<bool()> stop;                                    // asked often; true: the program is killed
 };
 
+// How a program ended. `status` counts where `signal` is 0.
 struct ProgramEnd {
   int status = 0;        // exit status; 0 where a signal ended it
   int signal = 0;        // the signal that ended it; 0: it ended itself

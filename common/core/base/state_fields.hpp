@@ -22,6 +22,7 @@ struct StateField {
 // Wrong input where the bytes are no whole snapshot.
 Result<std::vector<StateField>> StateFields(std::span<const std::byte> state);
 
+// The field in which two states differ, with its values as texts.
 struct StateDifference {
   std::string path;
   std::string first;  // "absent" where the field is not there

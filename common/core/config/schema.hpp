@@ -15,6 +15,7 @@
 // made from the same declarations.
 namespace rodeira::config {
 
+// What a key holds, in YAML.
 enum class ValueType {
   kNumber,
   kInteger,

@@ -21,11 +21,13 @@ namespace rodeira::config {
 
 namespace detail {
 
+// A node of a file that was parsed, or the place of one that is absent.
 struct YamlNode {
   YAML::Node node;  // may be null (absent)
   bool present = true;
 };
 
+// A fault of a file, before it becomes a base::Error with the place "file:line".
 struct Problem {
   int line = 0;  // from 1; 0: no place
   base::ErrorId id;
@@ -33,6 +35,7 @@ struct Problem {
   std::string missing;  // the key's path, where it is that a key is missing
 };
 
+// State of a File, shared by its maps and lists: the text, its nodes, the problems, and the keys that were read.
 struct Context {
   std::filesystem::path path;
   std::string text;

@@ -22,6 +22,7 @@ struct Cubic {
   double Bend(double x) const { return 2.0 * c + 6.0 * d * (x - from); }
 };
 
+// Value of a table at one place. Units follow from those of the value and of the place.
 struct CubicPoint {
   double value = 0.0;
   double slope = 0.0;  // first derivative

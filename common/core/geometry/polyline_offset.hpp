@@ -32,6 +32,7 @@ struct OffsetFault {
   double to_m = 0.0;
 };
 
+// A line beside another one, and where it is no good line.
 struct OffsetLine {
   Polyline line;
   std::vector<OffsetFault> faults;  // cusps, turns, crossings; each kind by ascending stations

@@ -12,6 +12,7 @@ struct GradePoint {
   double parabola_m = 0.0;
 };
 
+// The profile at one station.
 struct ProfilePoint {
   double z_m = 0.0;
   double grade = 0.0;          // dz/ds

@@ -20,6 +20,7 @@ struct GridPoint {
 
 using GridLine = std::vector<GridPoint>;
 
+// A segment between two points of the grid, without direction.
 struct GridSegment {
   GridPoint a, b;  // a < b
 

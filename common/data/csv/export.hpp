@@ -16,6 +16,7 @@
 
 namespace rodeira::csv {
 
+// A table that was written.
 struct ExportedTable {
   std::string topic;  // empty: a table of no topic
   std::string file;   // within the folder; in a .mat file the variable
@@ -24,6 +25,7 @@ struct ExportedTable {
   std::uint64_t bytes = 0;
 };
 
+// What an export wrote, what it left out, and why.
 struct ExportReport {
   std::vector<ExportedTable> tables;
   std::vector<std::string> left_out;  // topics without a table, and why

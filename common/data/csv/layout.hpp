@@ -29,6 +29,7 @@ struct Slot {
   std::string name;  // of the column
 };
 
+// How messages of a type become rows: columns, and the sequence that has the rows.
 struct Layout {
   bool has_header = false;    // the messages are samples of the lockstep
   bool writes_digest = true;  // of the header; false: the column is left out

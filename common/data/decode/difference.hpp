@@ -10,6 +10,7 @@
 
 namespace rodeira::decode {
 
+// Where two messages of one type differ, and the values there.
 struct Difference {
   std::string path;  // "wheels[2].load_n"; "agents" where the lengths differ; "byte 44" where no value differs
   std::string a;     // the values in full precision, "3 elements", or why there is none

@@ -10,6 +10,7 @@
 
 namespace rodeira::decode {
 
+// A word of an IDL text, with its line.
 struct Token {
   enum class Kind { kName, kNumber, kText, kSign, kEnd };
   Kind kind = Kind::kEnd;

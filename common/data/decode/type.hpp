@@ -9,6 +9,7 @@
 
 namespace rodeira::decode {
 
+// Kind of a type. Numbers are those of IDL: kChar and kOctet take one byte.
 enum class Kind {
   kBool,
   kChar,
@@ -40,6 +41,7 @@ enum class Extensibility {
 struct Type;
 using TypePtr = std::shared_ptr<const Type>;
 
+// A member of a struct, in the order of the bytes.
 struct Member {
   std::string name;
   TypePtr type;

@@ -21,6 +21,7 @@ struct PathStep {
 using Path = std::vector<PathStep>;
 std::string Text(const Path& path);  // "wheels[2].hub_b_m.x"
 
+// Is called with the values of a message, by Walk.
 class Visitor {
  public:
   virtual ~Visitor() = default;
@@ -36,6 +37,7 @@ class Visitor {
 // to three bytes behind the last value are a transport's padding and are passed over.
 base::Status Walk(const Type& type, std::span<const std::byte> payload, Visitor& visitor);
 
+// A value of a message and its path, as Text writes it.
 struct Entry {
   std::string path;
   Value value;

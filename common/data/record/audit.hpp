@@ -9,6 +9,7 @@
 
 namespace rodeira::record {
 
+// Two recorded steps of a source with samples missing between them.
 struct StepGap {
   std::uint64_t after_step = 0;
   std::uint64_t next_step = 0;

@@ -27,6 +27,7 @@ struct Definitions {
   base::Status Add(const Channel& channel);
 };
 
+// What a file holds, without its messages.
 struct Contents {
   Header header;
   Rules rules = Rules::kOwn;
@@ -68,6 +69,7 @@ base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions&
 // contents'.
 base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Contents& contents);
 
+// Contents by the summary at the end of a file.
 struct Summary {
   Contents contents;
   bool has_statistics = false;
@@ -97,6 +99,7 @@ void AddNamed(const Contents& summary, Contents& scanned);
 // compared.
 std::vector<std::string> Compare(const Summary& said, const Contents& found);
 
+// State of a reader and its cursors; constant once the file is open.
 class McapReader::Shared {
  public:
   std::unique_ptr<Source> source;

@@ -20,6 +20,7 @@
 // content; little-endian; a text is u32 length and UTF-8; a map and an array begin with their length in bytes (u32).
 namespace rodeira::record {
 
+// First byte of a record, by MCAP's specification.
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -60,12 +61,14 @@ inline std::span<const std::byte> MagicBytes() { return std::as_bytes(std::span(
 // Log time and offset within the uncompressed chunk of one message, in the order of the messages.
 using IndexEntries = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
+// Last record of a file. Offsets are bytes from its start; 0: there is no such part.
 struct Footer {
   std::uint64_t summary_start = 0;
   std::uint64_t summary_offset_start = 0;
   std::uint32_t summary_crc = 0;
 };
 
+// Record of a chunk, before its records are uncompressed.
 struct ChunkHead {
   std::uint64_t first_log_time_ns = 0;
   std::uint64_t last_log_time_ns = 0;
@@ -75,11 +78,13 @@ struct ChunkHead {
   std::span<const std::byte> records;  // as they lie in the file
 };
 
+// Log times of a channel's messages in a chunk, with their places in its uncompressed records.
 struct MessageIndex {
   ChannelId channel = 0;
   IndexEntries entries;
 };
 
+// Place of the records of one opcode in the summary, in bytes from the file's start.
 struct SummaryOffset {
   Opcode group = Opcode::kSchema;
   std::uint64_t start = 0;

@@ -18,6 +18,7 @@
 
 namespace rodeira::record {
 
+// Settings of a reader.
 struct ReaderSettings {
   bool scan = false;                                    // read from the start even where the summary is whole
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // chunks held at a time, uncompressed: beyond, an Error
@@ -32,6 +33,7 @@ struct Condition {
   std::vector<std::string> findings;  // sentences: why the summary was not used, what was lost
 };
 
+// A chunk of the file: its place, size and times. Offsets are bytes from the start of the file.
 struct ChunkInfo {
   std::uint64_t offset = 0;        // of the chunk's record in the file
   std::uint64_t record_bytes = 0;  // with opcode and length
@@ -46,12 +48,14 @@ struct ChunkInfo {
   bool unchunked = false;                            // no Chunk record: a run of messages that lie outside of chunks
 };
 
+// Place of a metadata record, in bytes from the start of the file.
 struct MetadataInfo {
   std::string name;
   std::uint64_t offset = 0;
   std::uint64_t record_bytes = 0;
 };
 
+// An attachment without its data; `offset` is that of its record.
 struct AttachmentInfo {
   std::string name;
   std::string media_type;

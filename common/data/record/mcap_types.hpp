@@ -25,12 +25,14 @@ inline constexpr const char* kLibrary = "rodeira";
 
 enum class Compression { kNone, kZstd };
 
+// First record of a file: profile and program that wrote it.
 struct Header {
   std::string profile;
   std::string library;
   bool operator==(const Header&) const = default;
 };
 
+// The type of messages.
 struct Schema {
   SchemaId id = 0;
   std::string name;      // "module::Type"
@@ -39,6 +41,7 @@ struct Schema {
   bool operator==(const Schema&) const = default;
 };
 
+// A sequence of messages of one type. Several channels may have the same topic.
 struct Channel {
   ChannelId id = 0;
   SchemaId schema = 0;
@@ -48,6 +51,7 @@ struct Channel {
   bool operator==(const Channel&) const = default;
 };
 
+// A message. Times are nanoseconds; in a recording of Rodeira, simulated time.
 struct Message {
   ChannelId channel = 0;
   std::uint32_t sequence = 0;
@@ -56,12 +60,14 @@ struct Message {
   std::span<const std::byte> data;  // the function that hands out the message says how long these bytes live
 };
 
+// A named table of texts.
 struct Metadata {
   std::string name;
   TextMap entries;
   bool operator==(const Metadata&) const = default;
 };
 
+// A named file within the recording.
 struct Attachment {
   std::string name;
   std::string media_type;
@@ -71,6 +77,7 @@ struct Attachment {
   bool operator==(const Attachment&) const = default;
 };
 
+// Counts of a file. Times are nanoseconds, as of messages.
 struct Statistics {
   std::uint64_t messages = 0;
   std::uint16_t schemas = 0;

@@ -16,6 +16,7 @@
 
 namespace rodeira::record {
 
+// Settings of a writer. Open refuses values outside of the ranges.
 struct WriterSettings {
   Compression compression = Compression::kZstd;
   int zstd_level = -1;                          // -7 (fastest) to 19

@@ -23,6 +23,7 @@ enum class Delivery {
   kObserve,  // best effort: observers, which never slow a run (law L5)
 };
 
+// How a process takes part in a run over DDS.
 struct DomainSettings {
   std::uint32_t domain = 0;  // one a rig
   std::string run;           // one a run: becomes the partition, never empty
@@ -37,6 +38,7 @@ struct DomainSettings {
   idl::TopicTable topics = {};                                         // names and types of the topics
 };
 
+// Sends payloads on one topic.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -44,6 +46,7 @@ class Writer {
   virtual base::Status Write(const base::Bytes& payload) = 0;
 };
 
+// Receives payloads on one topic while it lives.
 class Reader {
  public:
   virtual ~Reader() = default;

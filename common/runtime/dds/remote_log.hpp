@@ -12,6 +12,8 @@
 namespace rodeira::dds {
 
 base::Bytes EncodeLog(std::uint64_t clock_id, std::int64_t base_step_ns, const lockstep::LogBatch& batch);
+
+// A batch of the log, and the clock that sent it: a restarted clock has another id.
 struct HeardLog {
   std::uint64_t clock_id = 0;
   lockstep::LogBatch batch;

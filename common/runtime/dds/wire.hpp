@@ -34,6 +34,7 @@ Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node);
 // Wrong input that names what differs, with both values. Worlds are compared if both have one.
 base::Status CheckHello(const Hello& own, const Hello& other);
 
+// A node's report, with the id of the clock that the node has heard; 0: none yet.
 struct NamedReport {
   std::string node;
   std::uint64_t clock_id = 0;
@@ -45,6 +46,7 @@ base::Bytes EncodeReport(const NamedReport& report);
 // Wrong input if it cannot be read, and if the sender's type of the report is another one; this names the node.
 base::Result<NamedReport> DecodeReport(const base::Bytes& payload);
 
+// A grant of the clock of this id; `serial` ascends with each that it sends.
 struct NumberedGrant {
   std::uint64_t clock_id = 0;
   std::uint32_t serial = 0;
@@ -59,6 +61,8 @@ base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question)
 std::optional<lockstep::Nack> DecodeNack(base::Digest roster_hash, const base::Bytes& payload);
 
 base::Bytes EncodeSampleBatch(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples);
+
+// Contents of a batch of samples that was sent again to one node.
 struct Opened {
   lockstep::NodeIndex to = 0;
   std::vector<base::Bytes> samples;  // payloads

@@ -16,6 +16,7 @@ enum class DiscoveryKind {
   kServer,     // by asking a server, which is the clock's process; no multicast
 };
 
+// How the processes of a run find each other. The first member says which of the others count.
 struct Discovery {
   static constexpr std::uint16_t kServerPort = 11811;
 

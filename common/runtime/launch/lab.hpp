@@ -12,6 +12,7 @@
 
 namespace rodeira::launch {
 
+// A PC of a laboratory.
 struct LabHost {
   std::string name;
   std::string address;  // IPv4, in the network that the PCs share

@@ -21,6 +21,7 @@
 
 namespace rodeira::launch {
 
+// A node of a launch file.
 struct LaunchNode {
   std::string name;
   std::shared_ptr<const NodeKind> kind;

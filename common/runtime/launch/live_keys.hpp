@@ -34,6 +34,7 @@ struct KeysNow {
   std::uint32_t PressesOf(std::uint32_t key) const;
 };
 
+// A window's side: publishes its keys.
 class LiveKeysSender {
  public:
   virtual ~LiveKeysSender() = default;
@@ -41,6 +42,7 @@ class LiveKeysSender {
   virtual void Say(std::vector<LiveKey> keys) = 0;
 };
 
+// The input node's side: keys of all windows, merged.
 class LiveKeysReceiver {
  public:
   virtual ~LiveKeysReceiver() = default;

@@ -29,6 +29,7 @@ struct LiveRequestsSaid {
   std::vector<LiveRequest> requests;
 };
 
+// A window's side: publishes its requests until they are answered.
 class LiveRequestsSender {
  public:
   virtual ~LiveRequestsSender() = default;
@@ -37,6 +38,7 @@ class LiveRequestsSender {
   virtual void Say(std::vector<LiveRequest> requests) = 0;
 };
 
+// The scenario node's side: requests of all windows.
 class LiveRequestsReceiver {
  public:
   virtual ~LiveRequestsReceiver() = default;

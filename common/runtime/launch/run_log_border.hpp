@@ -11,6 +11,7 @@
 // The border over which the clock's log reaches the recorder. No part of the lockstep.
 namespace rodeira::launch {
 
+// The recorder's side of the clock's log.
 class RunLogReceiver {
  public:
   virtual ~RunLogReceiver() = default;

@@ -24,6 +24,7 @@ struct Asked {
   std::function<void(const base::Result<std::string>&)> answer;
 };
 
+// Settings of a run of one process. Functions are called from threads of the run; those that say so, one at a time.
 struct InProcessSettings {
   std::optional<Step> last_step;
   double pace = 0.0;  // as Pacer
@@ -56,6 +57,7 @@ struct InProcessSettings {
   std::function<void(const LogBatch&)> on_log;         // RunThreaded: on the caller's thread
 };
 
+// How a run of one process ended.
 struct RunOutcome {
   bool ok = false;
   std::string fault;            // why not ok: names node and step

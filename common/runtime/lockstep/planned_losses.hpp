@@ -18,6 +18,7 @@ enum class LossCause { kKilled, kTerminated, kStopped };
 // and after `lasts_turns` another one takes its place, which has heard nothing of what was said before.
 inline constexpr NodeIndex kClock = std::numeric_limits<NodeIndex>::max();
 
+// The loss of a node or of the clock (kClock) at a turn that the test chooses.
 struct PlannedLoss {
   std::uint64_t turn = 0;  // of the run's loop, which moves one node or message a turn
   NodeIndex node = 0;

@@ -36,6 +36,8 @@ struct WallTime {
 enum class RemarkKind { kStart, kEnd, kMark, kPause, kResume, kStep, kPace, kStop, kFault };
 std::string_view RemarkName(RemarkKind kind);  // "start", "end", "mark" …
 
+// An entry of the log beside the wall times: start, pause, mark, change of pace. UTC and monotonic time are the
+// clock's.
 struct Remark {
   Step step = -1;  // the newest granted one
   std::int64_t utc_ns = 0;
@@ -48,6 +50,7 @@ struct Remark {
   bool operator==(const Remark&) const = default;
 };
 
+// Entries of the log that are sent together, in order. Batches have ascending numbers without gaps.
 struct LogBatch {
   std::uint64_t number = 0;  // counts from 0
   std::vector<WallTime> walls;
