@@ -22,7 +22,7 @@ namespace {
 
 using lockstep::Step;
 
-// A log whose next message is `ahead` steps beyond the recorder's activation that takes it.
+// A log with its next message `ahead` steps beyond the recorder's activation that takes it.
 class LogAhead final : public launch::RunLogReceiver {
  public:
   LogAhead(Step period, Step ahead) : period_(period), ahead_(ahead) {}

@@ -107,20 +107,20 @@ TEST(Zones, LevelsDoNotMeet) {
   const auto network = MapNetwork("overpass");
   const Graph graph(*network);
   const Zones zones(graph);
-  int crossings = 0;  // in the plan, one way over the other
-  for (const Track& under : graph.tracks()) {
-    for (const Track& over : graph.tracks()) {
-      const double d_m = 0.5 * over.length_m();
-      const Eigen::Vector3d p = over.curve.At(d_m).p_W;
-      for (double at_m = 0.0; at_m < under.length_m(); at_m += 0.5) {
-        const Eigen::Vector3d q = under.curve.At(at_m).p_W;
-        if ((p - q).head<2>().norm() < 1.0 && p.z() > q.z() + 3.0) {
-          ++crossings;
-          break;
-        }
+  // One way over the other, as seen from above.
+  const auto passes_over = [](const Track& over, const Track& under) {
+    for (double over_m = 0.0; over_m < over.length_m(); over_m += 1.0) {
+      const Eigen::Vector3d p = over.curve.At(over_m).p_W;
+      for (double under_m = 0.0; under_m < under.length_m(); under_m += 1.0) {
+        const Eigen::Vector3d q = under.curve.At(under_m).p_W;
+        if ((p - q).head<2>().norm() < 1.0 && p.z() > q.z() + 3.0) return true;
       }
     }
-  }
+    return false;
+  };
+  int crossings = 0;
+  for (const Track& under : graph.tracks())
+    for (const Track& over : graph.tracks()) crossings += passes_over(over, under) ? 1 : 0;
   EXPECT_GT(crossings, 0);
   ASSERT_FALSE(zones.zones().empty());
   for (const Zone& zone : zones.zones()) {
