@@ -214,14 +214,15 @@ class RecorderNode final : public lockstep::Node {
     if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status)
       return status;
     written_.Note(sample.valid(), sample.source());
-    TellSafeBefore(sample.valid());
+    TellSafe();
+    newest_written_ = sample.valid();
     return {};
   }
-  // Of the first sample since a chunk went to the file: what came before that one lies in it. Messages of the log close
-  // chunks too.
-  void TellSafeBefore(lockstep::Step valid) {
+  // Of the first sample since a chunk went to the file: those before it lie there. Messages of the log close chunks
+  // too. A recorder that is started again finds the newest of them, and asks for the others of its step once more.
+  void TellSafe() {
     const std::uint64_t bytes = writer_->written_bytes();
-    if (tell_safe_ && bytes != bytes_when_told_) tell_safe_(valid - 1);
+    if (tell_safe_ && bytes != bytes_when_told_ && newest_written_ > 0) tell_safe_(newest_written_ - 1);
     bytes_when_told_ = bytes;
   }
   // By an earlier incarnation: the file is in the order of (step, source).
@@ -241,7 +242,8 @@ class RecorderNode final : public lockstep::Node {
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;
   std::uint64_t bytes_when_told_ = 0;
-  lockstep::Step last_step_ = -1;  // of an earlier incarnation's last sample
+  lockstep::Step newest_written_ = -1;  // of this incarnation
+  lockstep::Step last_step_ = -1;       // of an earlier incarnation's last sample
   lockstep::SourceIndex last_source_ = 0;
 };
 

@@ -61,8 +61,7 @@ void FindNeighbours(const MapFile& file, LaneMap& map) {
 
 base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, const std::string& name) {
   for (const Finding& finding : CheckMap(file, heights)) {
-    if (finding.severity == Severity::kError)
-      return base::WrongInput(finding.id, finding.Text(), finding.Place(name));
+    if (finding.severity == Severity::kError) return base::WrongInput(finding.id, finding.Text(), finding.Place(name));
   }
   LaneMap map;
   map.left_hand = heights.left_hand;
