@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -20,20 +20,27 @@ namespace {
 constexpr const char* kPlanKind = "view tiles 1";
 constexpr const char* kLevelKind = "view level 1";
 
-// Of all that can change a bit of a level, names of files included, which a level contains.
-base::Digest SourceOfWorld(const road::World& world, const scene::ModelIsThere& is_there) {
-  base::Digest digest = scene::SeenDigest(world);
-  for (const terrain::LaidPicture& picture : scene::PicturesOf(world))
-    digest = base::Combine(digest, base::Hash(picture.file));
-  std::set<std::string> models;
+// The world's models from files, and which of them can be drawn. Each is asked for once: one that cannot be read says
+// so.
+std::map<std::string, bool> ModelsOf(const road::World& world, const scene::ModelIsThere& is_there) {
+  std::map<std::string, bool> models;
   const scene::StaticObjects things(world);
   for (const auto& [key, tile] : things.tiles()) {
     for (const scene::Thing& thing : tile.things) {
-      if (!thing.file.empty()) models.insert(thing.file);
+      if (!thing.file.empty() && !models.contains(thing.file))
+        models[thing.file] = is_there == nullptr || is_there(thing.file);
     }
   }
-  for (const std::string& model : models)
-    digest = base::Combine(digest, base::Hash(fmt::format("{} {}", model, !is_there || is_there(model))));
+  return models;
+}
+
+// Of all that can change a bit of a level, names of files included, which a level contains.
+base::Digest SourceOfWorld(const road::World& world, const std::map<std::string, bool>& models) {
+  base::Digest digest = scene::SeenDigest(world);
+  for (const terrain::LaidPicture& picture : scene::PicturesOf(world))
+    digest = base::Combine(digest, base::Hash(picture.file));
+  for (const auto& [model, is_there] : models)
+    digest = base::Combine(digest, base::Hash(fmt::format("{} {}", model, is_there)));
   return digest;
 }
 
@@ -68,12 +75,12 @@ std::vector<TileFiles> TilesFrom(std::span<const std::byte> bytes) {
 
 class CachedTiles final : public DatabaseTiles {
  public:
-  CachedTiles(const road::World& world, unsigned threads, scene::ModelIsThere is_there, base::FileCache& cache)
+  CachedTiles(const road::World& world, unsigned threads, const scene::ModelIsThere& is_there, base::FileCache& cache)
       : world_(world),
         threads_(threads),
-        is_there_(std::move(is_there)),
+        models_(ModelsOf(world_, is_there)),
         cache_(cache),
-        source_(SourceOfWorld(world_, is_there_)) {
+        source_(SourceOfWorld(world_, models_)) {
     if (const auto bytes = cache_.Find(kPlanKind, source_)) {
       files_ = TilesFrom(*bytes);
       return;
@@ -99,13 +106,18 @@ class CachedTiles final : public DatabaseTiles {
 
  private:
   const DatabaseTiles& Made() const {
-    std::call_once(once_, [&] { made_ = TilesOf(world_, threads_, is_there_); });
+    std::call_once(once_, [this] {
+      made_ = TilesOf(world_, threads_, [this](const std::string& model) {
+        const auto known = models_.find(model);
+        return known == models_.end() || known->second;
+      });
+    });
     return *made_;
   }
 
   const road::World& world_;
   unsigned threads_;
-  scene::ModelIsThere is_there_;
+  std::map<std::string, bool> models_;  // from files; whether they can be drawn
   base::FileCache& cache_;
   base::Digest source_;
   std::vector<TileFiles> files_;
@@ -119,7 +131,7 @@ std::unique_ptr<DatabaseTiles> CachedTilesOf(const road::World& world, unsigned 
                                              base::FileCache* cache) {
   if (cache == nullptr || !cache->is_used() || world.network() == nullptr)
     return TilesOf(world, threads, std::move(is_there));
-  return std::make_unique<CachedTiles>(world, threads, std::move(is_there), *cache);
+  return std::make_unique<CachedTiles>(world, threads, is_there, *cache);
 }
 
 }  // namespace rodeira::nodes
