@@ -125,8 +125,8 @@ traci.close()
                      "<param key='device.ssm.trajectories' value='true'/>"
                      "<param key='device.ssm.range' value='600'/></vehicle>")
         (self.folder / "a.rou.xml").write_text(f"<routes>{cars}</routes>")
-        done = subprocess.run(["sumo", "-n", "a.net.xml", "-r", "a.rou.xml", "--step-length", str(STEP_S), "--end", "80",
-                               "--no-step-log", "--no-warnings", "--collision.action", "none"], cwd=self.folder,
+        done = subprocess.run(["sumo", "-n", "a.net.xml", "-r", "a.rou.xml", "--step-length", str(STEP_S), "--end",
+                               "80", "--no-step-log", "--no-warnings", "--collision.action", "none"], cwd=self.folder,
                               capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         conflicts = ElementTree.parse(self.folder / "ssm.xml").getroot().findall("conflict")

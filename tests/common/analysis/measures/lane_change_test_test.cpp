@@ -38,7 +38,7 @@ Measure Measured(const char* name, const Drive& drive, const LaneChangeTest& tes
   return info.compute({drive, 0, drive.size(), baseline, &test}, OptionValues(info.options, kNone));
 }
 
-// A person who begins d later than the path, with changes of the same length: at each sign a parallelogram of the
+// A drive with changes of the path's length that begin d later: at each sign a parallelogram of the
 // lanes' distance times d. Over the stretch from 100 to 500 m.
 TEST(LaneChangeTest, ALateChangeIsAParallelogram) {
   for (const double late_m : {0.0, 4.0, 9.0}) {
@@ -50,7 +50,7 @@ TEST(LaneChangeTest, ALateChangeIsAParallelogram) {
   EXPECT_EQ(Measured("lct_correct_share", DriveOf(-80.0, 10.0), kTest).value, 0.0) << "all 80 m behind the signs";
 }
 
-// The own path is that of the baseline: its begin and length are found, and a person who drives so deviates by nothing.
+// The own path is that of the baseline: its begin and length are found, and such a drive deviates by nothing.
 TEST(LaneChangeTest, ThePersonsOwnPathIsThatOfTheBaseline) {
   const Drive drive = DriveOf(18.0, 22.0);
   const OwnPath own = FindOwnPath(drive.s_m, drive.t_m, kTest);

@@ -95,7 +95,7 @@ TEST_F(FileCaches, EveryDamageIsFoundAndMendedByKeepingAgain) {
   EXPECT_EQ(cache.Find("kind", 1), kept_);
 }
 
-// A file under another one's name: an attack, or a mistake of a person who copies.
+// A file under the name of another: by an attack, or copied by mistake.
 TEST_F(FileCaches, AFileUnderAnotherNameIsNotTaken) {
   FileCache cache(Folder());
   cache.Keep("kind", 1, kept_);
@@ -156,7 +156,7 @@ TEST_F(FileCaches, AFolderThatOthersCanWriteOrThatIsALinkIsNotUsed) {
 }
 
 TEST_F(FileCaches, WhatBelongsToAnotherUserIsNotUsed) {
-  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder to another user";
+  if (::geteuid() != 0) GTEST_SKIP() << "only root may give a folder to another user";
   FileCache cache(Folder());
   cache.Keep("kind", 1, kept_);
   ASSERT_EQ(::chown(OnlyFile().c_str(), 12345, 12345), 0);

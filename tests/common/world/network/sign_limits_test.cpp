@@ -111,7 +111,8 @@ TEST(SignLimits, OfOneLaneHoldsOnItAloneAndALaneThatOpensHasThatOfTheLaneBeside)
   std::string text = road.Text();
   const std::string lanes =
       R"(<laneSection s="50"><center><lane id="0" type="none"/></center><right>
-      <lane id="-1" type="driving"><link><predecessor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
+      <lane id="-1" type="driving"><link><predecessor id="-1"/></link>
+      <width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
       <lane id="-2" type="driving"><width sOffset="0" a="0" b="0.1" c="0" d="0"/></lane>
       <lane id="-3" type="driving"><width sOffset="0" a="0" b="0.1" c="0" d="0"/></lane>
       </right></laneSection>)";
