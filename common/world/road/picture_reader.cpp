@@ -6,13 +6,15 @@
 namespace rodeira::road {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 using terrain::LaidPicture;
 
 // Once, in a rectangle: the file's keys, or else where the picture itself says that it lies. Without either it has no
 // width.
-void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::PicturePlace>& place,
+void ReadRectangle(const DeclaredMap& declared, bool on_plane, const std::optional<terrain::PicturePlace>& place,
                    LaidPicture& picture) {
+  const Map& map = declared.map();
   picture.repeats = false;
   picture.width_m = picture.height_m = 0.0;
   const bool said = map.Has("west_m") || map.Has("south_m") || map.Has("east_m") || map.Has("north_m");
@@ -23,7 +25,7 @@ void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::P
                   "'north_m' were expected");
     return;
   }
-  const auto number = [&](const char* key, double own) { return said ? map.Number(key, {-1e8, 1e8}) : own; };
+  const auto number = [&](const char* key, double own) { return said ? declared.RequiredNumber(key) : own; };
   const terrain::PicturePlace own = place.value_or(terrain::PicturePlace());
   picture.west_m = number("west_m", own.west);
   picture.south_m = number("south_m", own.south);
@@ -36,9 +38,10 @@ void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::P
 
 }  // namespace
 
-std::optional<LaidPicture> ReadGroundPicture(const Map& ground, std::vector<base::Error>& missing) {
-  if (!ground.Has("texture")) return std::nullopt;
-  const Map map = ground.Child("texture");
+std::optional<LaidPicture> ReadGroundPicture(const DeclaredMap& ground, std::vector<base::Error>& missing) {
+  if (!ground.map().Has("texture")) return std::nullopt;
+  const DeclaredMap declared = ground.Child("texture");
+  const Map& map = declared.MapWith("file");
   LaidPicture picture;
   const std::filesystem::path file = map.Path("file");
   terrain::PictureFacts facts{1, 1, std::nullopt};
@@ -50,11 +53,11 @@ std::optional<LaidPicture> ReadGroundPicture(const Map& ground, std::vector<base
     else
       missing.push_back(looked.error().WithContext(map.Place("file")));
   }
-  if (map.Choice("kind", {"geotypical", "draped"}, "geotypical") == "draped") {
-    ReadRectangle(map, ground.Has("kind"), facts.place, picture);
+  if (declared.Word("kind") == "draped") {
+    ReadRectangle(declared, ground.map().Has("kind"), facts.place, picture);
     return picture;
   }
-  picture.width_m = map.Number("repeat_m", {0.01, 100'000.0}, 20.0);
+  picture.width_m = declared.Number("repeat_m");
   picture.height_m = picture.width_m * facts.height_px / facts.width_px;
   return picture;
 }

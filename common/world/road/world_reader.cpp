@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/config/either.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/world/design/design_reader.hpp"
@@ -18,6 +19,7 @@
 #include "common/world/road/road_reader.hpp"
 #include "common/world/road/surface_detail.hpp"
 #include "common/world/road/world_fit.hpp"
+#include "common/world/road/world_schema.hpp"
 #include "common/world/terrain/elevation_file.hpp"
 #include "common/world/terrain/ground_move.hpp"
 #include "common/world/terrain/nearest_ground.hpp"
@@ -44,37 +46,40 @@ bool ReadVersion(const Map& root) {
   return version == kVersion;
 }
 
-HillsSpec ReadHills(const Map& map) {
+HillsSpec ReadHills(const config::DeclaredMap& declared) {
+  const Map& map = declared.map();
   HillsSpec hills;
-  hills.seed = static_cast<std::uint64_t>(map.Integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
-  hills.columns = static_cast<int>(map.Integer("columns", 2, 8193));
-  hills.rows = static_cast<int>(map.Integer("rows", 2, 8193));
-  hills.spacing_m = map.Number("spacing_m", {0.1, 1000.0});
-  hills.west_m = map.Number("west_m", {-1e8, 1e8});
-  hills.south_m = map.Number("south_m", {-1e8, 1e8});
-  if (map.Has("base_z_m")) hills.base_z_m = map.Number("base_z_m", {-12'000.0, 12'000.0});
-  hills.below_m = map.Number("below_m", {-50.0, 50.0}, 0.0);
-  hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
-  hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
+  hills.seed =
+      static_cast<std::uint64_t>(declared.MapWith("seed").Integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  hills.columns = static_cast<int>(declared.Integer("columns"));
+  hills.rows = static_cast<int>(declared.Integer("rows"));
+  hills.spacing_m = declared.Number("spacing_m");
+  hills.west_m = declared.Number("west_m");
+  hills.south_m = declared.Number("south_m");
+  if (map.Has("base_z_m")) hills.base_z_m = declared.RequiredNumber("base_z_m");
+  hills.below_m = declared.Number("below_m");
+  hills.flat_m = declared.Number("flat_m");
+  hills.full_m = declared.Number("full_m");
   if (hills.full_m <= hills.flat_m)
     map.Problem("full_m", "config.wrong_order", "'full_m' must be greater than 'flat_m': the hills grow between them");
-  hills.reach_m = map.Number("reach_m", {0.2, 1e6}, 3.0 * hills.full_m);
-  hills.follow_structures = map.Flag("follow_structures", true);
+  hills.reach_m = declared.Number("reach_m", 3.0 * hills.full_m);
+  hills.follow_structures = declared.Flag("follow_structures");
   if (hills.reach_m < hills.full_m)
     map.Problem(
         "reach_m", "config.wrong_order",
         "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
-  const List relief = map.Items("relief");
+  const config::DeclaredList relief = declared.Items("relief");
   for (std::size_t i = 0; i < relief.size(); ++i) {
-    const Map layer = relief.At(i);
-    hills.relief.push_back({layer.Number("wavelength_m", {1.0, 1e6}), layer.Number("amplitude_m", {0.0, 10'000.0})});
+    const config::DeclaredMap layer = relief.At(i);
+    hills.relief.push_back({layer.Number("wavelength_m"), layer.Number("amplitude_m")});
     const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows *
                          hills.spacing_m / hills.relief.back().wavelength_m;
     if (nodes > 1e8)
-      layer.Problem("wavelength_m", "config.out_of_range", "the wavelength is too short for a terrain of this size");
+      layer.map().Problem("wavelength_m", "config.out_of_range",
+                          "the wavelength is too short for a terrain of this size");
   }
   if (map.Has("projection")) {
-    auto wkt = terrain::ProjectionWkt(map.Text("projection"));
+    auto wkt = terrain::ProjectionWkt(declared.Text("projection", ""));
     if (wkt)
       hills.projection_wkt = std::move(wkt).value();
     else
@@ -83,21 +88,19 @@ HillsSpec ReadHills(const Map& map) {
   return hills;
 }
 
-void ReadFriction(const Map& map, WorldSpec& spec) {
+void ReadFriction(const config::DeclaredMap& map, WorldSpec& spec) {
   using ground::Surface;
   for (const Surface surface :
        {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
-    double& friction = spec.friction[static_cast<std::size_t>(surface)];
-    friction = map.Number(SurfaceName(surface), {0.01, 2.0}, friction);
+    spec.friction[static_cast<std::size_t>(surface)] = map.Number(SurfaceName(surface));
   }
 }
 
-void ReadPlane(const Map& map, WorldSpec& spec) {
-  (void)map.Choice("kind", {"plane"});
-  spec.plane = PlaneSpec{map.Number("z_m", {-12'000.0, 12'000.0}, 0.0), map.Number("slope_x", {-1.0, 1.0}, 0.0),
-                         map.Number("slope_y", {-1.0, 1.0}, 0.0)};
-  spec.terrain_surface = ReadSurface(map, "surface", ground::Surface::kAsphalt);
-  if (map.Has("friction")) spec.terrain_friction = map.Number("friction", {0.01, 2.0});
+void ReadPlane(const config::DeclaredMap& map, WorldSpec& spec) {
+  (void)map.Word("kind");
+  spec.plane = PlaneSpec{map.Number("z_m"), map.Number("slope_x"), map.Number("slope_y")};
+  spec.terrain_surface = ReadSurface(map.MapWith("surface"), "surface", ground::Surface::kAsphalt);
+  if (map.map().Has("friction")) spec.terrain_friction = map.RequiredNumber("friction");
 }
 
 // On a road: its index, lane and s, from which the rest follows once the road stands. Elsewhere: the pose itself.
@@ -129,15 +132,16 @@ void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& st
 }
 
 // The same of a file of version 2: what stands on a road is found with the roads.
-design::StartSpec ReadStartWish(const Map& map, StartPose& start) {
+design::StartSpec ReadStartWish(const config::DeclaredMap& declared, StartPose& start) {
+  const Map& map = declared.map();
   design::StartSpec wish;
   if (map.Has("x_m") || map.Has("y_m")) {
     ReadStart(map, {}, start);
     return wish;
   }
-  wish.road = map.Text("road", "");
-  if (map.Has("lane")) wish.lane = static_cast<int>(map.Integer("lane", -30, 30));
-  if (map.Has("s_m")) wish.s_m = map.Number("s_m", Range::NotNegative());
+  wish.road = declared.Text("road", "");
+  if (const auto lane = declared.OptionalInteger("lane")) wish.lane = static_cast<int>(*lane);
+  if (map.Has("s_m")) wish.s_m = declared.RequiredNumber("s_m");
   return wish;
 }
 
@@ -157,12 +161,13 @@ struct Keys {
 };
 
 Keys ReadKeys(const Map& root) {
+  const config::DeclaredMap declared(root, WorldSchema().keys);
   Keys keys;
-  keys.second = ReadVersion(root);
-  keys.spec.name = root.Text("name");
-  (void)root.Text("description", "");
-  ReadFriction(root.OptionalChild("friction"), keys.spec);
-  if (root.Has("network")) keys.network_file = root.Child("network").Path("file");
+  keys.second = ReadVersion(declared.MapWith("rodeira"));
+  keys.spec.name = declared.Text("name");
+  (void)declared.Text("description");
+  ReadFriction(declared.Child("friction"), keys.spec);
+  if (root.Has("network")) keys.network_file = declared.Child("network").MapWith("file").Path("file");
   const int grounds = (root.Has("ground") ? 1 : 0) + (root.Has("terrain") ? 1 : 0) + (keys.network_file ? 1 : 0);
   if (grounds != 1) {
     root.Problem(grounds == 0        ? ""
@@ -173,33 +178,33 @@ Keys ReadKeys(const Map& root) {
                  "'network' of an OpenDRIVE file");
   }
   if (root.Has("ground")) {
-    ReadPlane(root.Child("ground"), keys.spec);
-    keys.spec.ground_picture = ReadGroundPicture(root.Child("ground"), keys.missing);
+    ReadPlane(declared.Child("ground"), keys.spec);
+    keys.spec.ground_picture = ReadGroundPicture(declared.Child("ground"), keys.missing);
   }
-  const Map terrain = root.OptionalChild("terrain");
+  const config::DeclaredMap given_terrain = declared.Child("terrain");
+  const Map& terrain = given_terrain.map();
   if (root.Has("terrain")) {
-    keys.spec.terrain_surface = ReadSurface(terrain, "surface", ground::Surface::kGrass);
-    keys.spec.ground_picture = ReadGroundPicture(terrain, keys.missing);
-    keys.elevation_file = terrain.OptionalPath("file");
+    keys.spec.terrain_surface = ReadSurface(given_terrain.MapWith("surface"), "surface", ground::Surface::kGrass);
+    keys.spec.ground_picture = ReadGroundPicture(given_terrain, keys.missing);
+    keys.elevation_file = given_terrain.MapWith("file").OptionalPath("file");
     keys.elevation_place = terrain.Place("file");
     if (terrain.Has("registration")) {
-      keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells
-                                                                                        : terrain::Registration::kPosts;
+      keys.registration = given_terrain.Word("registration", "posts") == "cells" ? terrain::Registration::kCells
+                                                                                 : terrain::Registration::kPosts;
       if (!keys.elevation_file)
         terrain.Problem("registration", "config.conflicting_keys",
                         "'registration' says where the heights of a 'file' stand; there is none");
     }
-    const Map hills = terrain.OptionalChild("generate");
-    if (terrain.Has("generate")) keys.hills = ReadHills(hills);
+    if (terrain.Has("generate")) keys.hills = ReadHills(given_terrain.Child("generate"));
     if (terrain.Has("generate") == terrain.Has("file"))
       terrain.Problem("file", "config.conflicting_keys", "'terrain' needs either 'file' or 'generate'");
   }
   if (keys.second && root.Has("weather"))
-    (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
+    (void)weather::ReadStanding(declared.Child("weather").map());  // a scenario's node asks for it (WeatherOf)
   if (keys.network_file && !keys.second)
     root.Problem("network", "config.missing_key", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
-    if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
+    if (root.Has("start")) keys.start = ReadStartWish(declared.Child("start"), keys.spec.start);
     return keys;
   }
   const List roads = root.OptionalItems("roads");

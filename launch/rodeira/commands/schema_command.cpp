@@ -17,18 +17,25 @@
 #include "common/vehicle/input_devices/keyboard_schema.hpp"
 #include "common/vehicle/input_devices/wheel_schema.hpp"
 #include "common/vehicle/multibody/mechanism_schema.hpp"
+#include "common/world/road/world_schema.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
-  static const std::vector<const config::Schema*> all = {
-      &driver::DriverSchema(),          &launch::LabSchema(),
-      &launch::LaunchSchema(),          &multibody::MechanismSchema(),
-      &input_devices::KeyboardSchema(), &scenario::ScenarioSchema(),
-      &traffic::TrafficSchema(),        &dynamics::VehicleSchema(),
-      &dynamics::MultibodySchema(),     &dynamics::FmuSchema(),
-      &dynamics::LibrarySchema(),       &input_devices::WheelSchema()};
+  static const std::vector<const config::Schema*> all = {&driver::DriverSchema(),
+                                                         &launch::LabSchema(),
+                                                         &launch::LaunchSchema(),
+                                                         &multibody::MechanismSchema(),
+                                                         &input_devices::KeyboardSchema(),
+                                                         &scenario::ScenarioSchema(),
+                                                         &traffic::TrafficSchema(),
+                                                         &dynamics::VehicleSchema(),
+                                                         &dynamics::MultibodySchema(),
+                                                         &dynamics::FmuSchema(),
+                                                         &dynamics::LibrarySchema(),
+                                                         &input_devices::WheelSchema(),
+                                                         &road::WorldSchema()};
   return all;
 }
 

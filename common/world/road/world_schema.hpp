@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/core/config/schema.hpp"
+
+namespace rodeira::road {
+
+// The keys of `rodeira: world/2`. Roads, junctions, templates and materials have readers of their own.
+const config::Schema& WorldSchema();
+
+// The keys of each part.
+const std::vector<config::Key>& PlaneKeys();
+const std::vector<config::Key>& TerrainKeys();
+const std::vector<config::Key>& HillsKeys();
+const std::vector<config::Key>& GroundPictureKeys();
+
+}  // namespace rodeira::road
