@@ -124,7 +124,7 @@ dynamics::BicycleSettings CarOf(const AgentTraits& traits) {
   car.powertrain = heavy ? HeavyPowertrain(size) : CarPowertrain(size);
   car.powertrain.automatic.swap_s = kSwap_s;
   car.powertrain.automatic.close_s = kClose_s;
-  car.front_driven = !heavy;
+  car.powertrain.driven = heavy ? dynamics::DrivenWheels::kRear : dynamics::DrivenWheels::kFront;
   dynamics::VehicleDimensions& d = car.dimensions;
   d.wheelbase_m = traits.wheelbase_m;
   d.track_front_m = d.track_rear_m = traits.width_m - make.track_less_m;

@@ -30,7 +30,7 @@ struct BicycleChassis {
   assists::AssistCar assist_car;
 
   WheelDriveSettings drive() const {
-    return {settings.wheel, settings.brakes, settings.powertrain, settings.assists, assist_car, settings.front_driven};
+    return {settings.wheel, settings.brakes, settings.powertrain, settings.assists, assist_car};
   }
   double SteerAngle(std::size_t wheel, double steering_wheel_rad) const;
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;

@@ -119,7 +119,7 @@ CruiseForces BicycleEquilibrium::Cruise(const Eigen::Vector3d& normal) const {
   std::array<double, kWheels> loads_N{};
   for (std::size_t i = 0; i < kWheels; ++i) loads_N[i] = model_.car_.wheels[i].corner.load_N();
   return PushAlong(HoldingForce(normal).dot(Along(normal)), loads_N, model_.chassis_.settings.wheel,
-                   model_.chassis_.settings.front_driven, initial_.speed_mps);
+                   model_.chassis_.settings.powertrain, model_.chassis_.tyres, initial_.speed_mps);
 }
 
 // Of wheels that roll at the car's speed; at rest there are none.
@@ -291,12 +291,14 @@ void BicycleEquilibrium::SetInMotion() {
     }
     contact.forces = wheel.tyre.Forces(tyre, motion, bears, wheel.friction);
   }
-  const std::size_t driven = model_.chassis_.settings.front_driven ? kFrontLeft : kRearLeft;
-  const double turning = 0.5 * (model_.car_.wheels[driven].spin_radps + model_.car_.wheels[driven + 1].spin_radps);
+  const PowertrainSettings& powertrain = model_.chassis_.settings.powertrain;
+  std::array<double, kWheels> spin_radps{};
+  for (std::size_t i = 0; i < kWheels; ++i) spin_radps[i] = model_.car_.wheels[i].spin_radps;
+  const double turning = TurningOf(powertrain, spin_radps);
   if (cruises)
-    model_.car_.powertrain.StartSteadily(model_.chassis_.settings.powertrain, turning, Cruise(normal).at_wheel_Nm);
+    model_.car_.powertrain.StartSteadily(powertrain, turning, Cruise(normal).at_wheel_Nm);
   else
-    model_.car_.powertrain.Start(model_.chassis_.settings.powertrain, rests ? 0.0 : turning);
+    model_.car_.powertrain.Start(powertrain, rests ? 0.0 : turning);
 }
 
 base::Status BicycleModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {

@@ -86,7 +86,6 @@ BicycleSettings ReadBicycle(const Map& given) {
   bicycle.brakes = ReadBrakes(root.Child("brakes").map());
   bicycle.assists = ReadAssists(root.MapWith("assists"), bicycle.brakes);
   bicycle.powertrain = ReadPowertrain(given);
-  bicycle.front_driven = root.Word("driven_axle") != "rear";
   bicycle.dimensions = ReadBicycleDimensions(root.MapWith("dimensions"), bicycle);
   return bicycle;
 }
@@ -103,7 +102,7 @@ assists::AssistCar AssistCarOf(const BicycleSettings& car) {
   for (std::size_t i = 0; i < kWheels; ++i) {
     known.static_load_N[i] =
         0.5 * car.body.mass_kg * base::kGravity_mps2 * (AxleOf(i) == 0 ? 1.0 - rear_share : rear_share);
-    known.driven[i] = (AxleOf(i) == 0) == car.front_driven;
+    known.driven[i] = Drives(car.powertrain.driven, AxleOf(i));
   }
   return known;
 }

@@ -42,7 +42,6 @@ struct BicycleSettings {
   BrakeSettings brakes;
   assists::AssistSettings assists;
   PowertrainSettings powertrain;
-  bool front_driven = true;
   VehicleDimensions dimensions;
 };
 

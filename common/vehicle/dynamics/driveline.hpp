@@ -25,12 +25,17 @@ struct DifferentialSettings {
 };
 double LockingTorque(const DifferentialSettings& differential, double sum_of_shafts_Nm);
 
-// One step's loads on engine, clutch, gears, differential and the two driven wheels.
-struct DrivelineLoads {
-  double ratio = 0.0;  // engine turns a turn of the wheels, negative in reverse, 0 in neutral
-  double clutch_capacity_Nm = 0.0;
-  double locking_torque_Nm = 0.0;   // the most that the shafts' torques differ by; 0: an open differential
-  double wheel_inertia_kgm2 = 1.0;  // each
+// A differential between two driven axles: a planetary gear that gives the front axle a fixed share of the torque, with
+// the same plates as that of an axle. A locked one turns both axles alike and lets the tyres share the torque.
+struct CentreDifferentialSettings {
+  double front_share = 0.5;  // of the torque while nothing locks, in (0, 1)
+  bool locked = false;
+  DifferentialSettings plates;
+};
+
+// Of a driven axle: left, right.
+struct AxleLoads {
+  double locking_torque_Nm = 0.0;  // the most that the shafts' torques differ by; 0: an open differential
   std::array<double, 2> wheel_radps{};
   std::array<double, 2> road_torque_Nm{};  // of the tyres on the wheels, positive forward
   std::array<double, 2>
@@ -38,19 +43,24 @@ struct DrivelineLoads {
   std::array<double, 2> loss_torque_Nm{};  // the gears' part of it
 };
 
-struct DrivelineMotion {
-  double engine_radps = 0.0;
+// One step's loads on engine, clutch, gears, differentials and driven wheels: those of the only driven axle or, with
+// all wheels driven, of the front one.
+struct DrivelineLoads : AxleLoads {
+  double ratio = 0.0;  // engine turns a turn of the wheels, negative in reverse, 0 in neutral
+  double clutch_capacity_Nm = 0.0;
+  double wheel_inertia_kgm2 = 1.0;  // each
+  bool drives_all = false;
+  double front_share = 1.0;               // of the torque, by the centre differential; 1 with one driven axle
+  double centre_locking_torque_Nm = 0.0;  // the most that the axles' torques differ by beside their shares
+  AxleLoads rear;
+};
+
+struct AxleMotion {
   std::array<double, 2> wheel_radps{};
   std::array<double, 2> friction_torque_Nm{};  // acting, either sign
   std::array<double, 2> loss_torque_Nm{};      // the gears' part of it
-  double drive_torque_Nm = 0.0;                // of a drive shaft in the mean of both: half of ratio × clutch torque
+  double drive_torque_Nm = 0.0;                // of a drive shaft in the mean of both
   double locking_torque_Nm = 0.0;              // left shaft - right shaft
-  double locking_heat_W = 0.0;                 // of the differential's plates
-  double clutch_torque_Nm = 0.0;               // from engine to gearbox, either sign
-  double clutch_slip_radps = 0.0;              // at the end of the step
-  double clutch_in_W = 0.0;                    // torque × mean speed of the engine
-  double clutch_out_W = 0.0;                   // torque × mean speed of the gearbox's input
-  double clutch_heat_W = 0.0;                  // in - out
 
   // Of each shaft on its wheel: left, right.
   std::array<double, 2> shaft_torque_Nm() const {
@@ -66,10 +76,29 @@ struct DrivelineMotion {
   void Restore(base::StateReader& reader);
 };
 
-// Engine, clutch and driven wheels as three rigid rotors joined by dry friction, solved at the end-of-step speeds: what
+// Of the only driven axle or, with all wheels driven, of the front one.
+struct DrivelineMotion : AxleMotion {
+  double engine_radps = 0.0;
+  double locking_heat_W = 0.0;            // of the plates of all differentials
+  double clutch_torque_Nm = 0.0;          // from engine to gearbox, either sign
+  double clutch_slip_radps = 0.0;         // at the end of the step
+  double clutch_in_W = 0.0;               // torque × mean speed of the engine
+  double clutch_out_W = 0.0;              // torque × mean speed of the gearbox's input
+  double clutch_heat_W = 0.0;             // in - out
+  double centre_locking_torque_Nm = 0.0;  // front axle - rear axle, beside their shares
+  AxleMotion rear;
+
+  // Of all drive shafts together.
+  double drive_sum_Nm() const { return 2.0 * drive_torque_Nm + 2.0 * rear.drive_torque_Nm; }
+
+  void Save(base::StateWriter& writer) const;
+  void Restore(base::StateReader& reader);
+};
+
+// Engine, clutch and driven wheels as rigid rotors joined by dry friction, solved at the end-of-step speeds: what
 // sticks sticks exactly, brakes never turn a wheel back, a locked clutch or differential does not slip. Over the step
-// the work balances to rounding: change of kinetic energy = engine + road - friction - heat of clutch and differential,
-// torques × mean speeds.
+// the work balances to rounding: change of kinetic energy = engine + road - friction - heat of clutch and
+// differentials, torques × mean speeds.
 DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads,
                               double dt_s);
 

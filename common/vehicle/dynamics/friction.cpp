@@ -9,14 +9,16 @@ namespace rodeira::dynamics {
 namespace {
 
 enum class Role { kSticks, kAtPlus, kAtMinus };
-using Roles = std::array<Role, kFrictionElements>;
+template <int kElements>
+using Roles = std::array<Role, kElements>;
 
 // Impulses when the elements play these roles: sticking ones make their relative speed vanish.
-FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const FrictionVector& s_free,
-                           const FrictionVector& bound) {
-  FrictionMatrix system = FrictionMatrix::Identity();
-  FrictionVector right;
-  for (int i = 0; i < kFrictionElements; ++i) {
+template <int kElements>
+FrictionVector<kElements> ImpulsesFor(const Roles<kElements>& roles, const FrictionMatrix<kElements>& a,
+                                      const FrictionVector<kElements>& s_free, const FrictionVector<kElements>& bound) {
+  FrictionMatrix<kElements> system = FrictionMatrix<kElements>::Identity();
+  FrictionVector<kElements> right;
+  for (int i = 0; i < kElements; ++i) {
     if (roles[i] == Role::kSticks) {
       system.row(i) = a.row(i);
       right[i] = -s_free[i];
@@ -31,19 +33,21 @@ FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const Fr
 
 // Least-index pivoting (K. G. Murty's rule) on the box-constrained complementarity problem: change the role of the
 // first element that breaks its condition. Finite for a positive definite A; with five elements a handful of turns.
-FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound) {
-  constexpr int kMaxTurns = 500;  // there are 243 patterns
-  Roles roles{};                  // begin with what each would do by itself; a bound of 0 never changes its role
-  for (int i = 0; i < kFrictionElements; ++i) {
+template <int kElements>
+FrictionVector<kElements> SolveFriction(const FrictionMatrix<kElements>& a, const FrictionVector<kElements>& s_free,
+                                        const FrictionVector<kElements>& bound) {
+  constexpr int kMaxTurns = 500;  // of five elements there are 243 patterns
+  Roles<kElements> roles{};       // begin with what each would do by itself; a bound of 0 never changes its role
+  for (int i = 0; i < kElements; ++i) {
     const double most = a(i, i) * bound[i];
     roles[i] = s_free[i] > most ? Role::kAtMinus : (s_free[i] < -most || most == 0.0 ? Role::kAtPlus : Role::kSticks);
   }
-  FrictionVector p = FrictionVector::Zero();
+  FrictionVector<kElements> p = FrictionVector<kElements>::Zero();
   for (int turn = 0; turn < kMaxTurns; ++turn) {
-    p = ImpulsesFor(roles, a, s_free, bound);
-    const FrictionVector s = s_free + a * p;
+    p = ImpulsesFor<kElements>(roles, a, s_free, bound);
+    const FrictionVector<kElements> s = s_free + a * p;
     bool done = true;
-    for (int i = 0; i < kFrictionElements && done; ++i) {
+    for (int i = 0; i < kElements && done; ++i) {
       if (!(bound[i] > 0.0)) continue;
       Role& role = roles[i];
       const Role before = role;
@@ -62,5 +66,10 @@ FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_fr
   // Rounding can leave two roles that call for each other; the bound holds in any case.
   return p.cwiseMin(bound).cwiseMax(-bound);
 }
+
+template FrictionVector<5> SolveFriction<5>(const FrictionMatrix<5>&, const FrictionVector<5>&,
+                                            const FrictionVector<5>&);
+template FrictionVector<9> SolveFriction<9>(const FrictionMatrix<9>&, const FrictionVector<9>&,
+                                            const FrictionVector<9>&);
 
 }  // namespace rodeira::dynamics

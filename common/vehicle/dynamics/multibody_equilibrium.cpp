@@ -133,7 +133,7 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
   // Wheels with toe do not push quite along, and what the axles bear across has a part along: both are made up for.
   const double wanted_N = missing[0] - cruise.axle_N[0] * by_axle[0][0] - cruise.axle_N[1] * by_axle[1][0];
   const auto pushed = [&](double total_N) {
-    cruise.push = PushAlong(total_N, loads_N, settings_.wheel, settings_.front_driven, initial.speed_mps);
+    cruise.push = PushAlong(total_N, loads_N, settings_.wheel, settings_.powertrain, tyres_, initial.speed_mps);
     Eigen::Vector3d all = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < kWheels; ++i) all += acts(i, cruise.push.longitudinal_N[i] * contacts[i].along_W);
     return all;
@@ -148,7 +148,7 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
     wheels_[i].load->SetStep(cruise.forces[i], 0.0, 0.0);
     wheels_[i].load->Anchor(Hub_W(i), kAnchor_Npm, false);
   }
-  chassis_load_->SetDrive(2.0 * cruise.push.at_wheel_Nm);
+  chassis_load_->SetDrive(cruise.push.drive_sum_Nm());
   chassis_load_->SetHeadway(cruise.v_W);
   return held_N;
 }
@@ -235,8 +235,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
   const bool rests = v.norm() < kStandstill_mps && std::fabs(initial.yaw_rate_radps) < kStandstill_mps;
   FillTranslation(rests ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : v, system_->qd());
   if (!rests && !cruises) Turn(pose.translation(), w);
-  double turning_radps = 0.0;
-  const std::size_t driven = settings_.front_driven ? kFrontLeft : kRearLeft;
+  std::array<double, kWheels> spin_radps{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     Wheel& wheel = wheels_[i];
     const TyreSettings& tyre = tyres_[i];
@@ -257,7 +256,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
       wheel.tyre.SetToRoll(tyre, motion, load_N, wheel.friction);
     }
     forces_[i] = wheel.tyre.Forces(tyre, motion, load_N, wheel.friction);
-    if (i == driven || i == driven + 1) turning_radps += 0.5 * wheel.spin_radps;
+    spin_radps[i] = wheel.spin_radps;
   }
   torques_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -273,11 +272,15 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
   forward_mps2_ = 0.0;
   lateral_mps2_ = 0.0;
   assists_ = {};
+  const double turning_radps = TurningOf(settings_.powertrain, spin_radps);
   if (cruises)
     powertrain_.StartSteadily(settings_.powertrain, turning_radps, cruise.push.at_wheel_Nm);
   else
     powertrain_.Start(settings_.powertrain, rests ? 0.0 : turning_radps);
-  for (std::size_t i = 0; i < 2; ++i) torques_.drive_Nm[driven + i] = powertrain_.motion().wheel_torque_Nm()[i];
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const AxleMotion* axle = powertrain_.AxleOf(settings_.powertrain, AxleOf(i));
+    if (axle != nullptr) torques_.drive_Nm[i] = axle->wheel_torque_Nm()[i % 2];
+  }
   (void)system_->FindAccelerations();
 }
 

@@ -77,7 +77,7 @@ void MultibodyModel::FillAssistCar() {
   const Contacts contacts = FindContacts(system_->motion());
   for (std::size_t i = 0; i < kWheels; ++i) {
     assist_car_.static_load_N[i] = contacts[i].load_N;
-    assist_car_.driven[i] = (AxleOf(i) == 0) == settings_.front_driven;
+    assist_car_.driven[i] = Drives(settings_.powertrain.driven, AxleOf(i));
   }
 }
 
@@ -181,8 +181,8 @@ WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::arr
     input.yaw_rate_radps = Turning_W(frame, system_->motion()).dot(up);
     input.front_wheel_rad = hands_rad_ / settings_.steering.ratio;
   }
-  const WheelDriveSettings drive{settings_.wheel,   settings_.brakes, settings_.powertrain,
-                                 settings_.assists, assist_car_,      settings_.front_driven};
+  const WheelDriveSettings drive{settings_.wheel, settings_.brakes, settings_.powertrain, settings_.assists,
+                                 assist_car_};
   WheelTorques torques = dynamics::TurnWheels(drive, controls, input, dt_s, powertrain_, assists_, spin_radps);
   // The brake's share of the friction that acted: the rest is rolling resistance.
   for (std::size_t i = 0; i < kWheels; ++i) {

@@ -113,7 +113,6 @@ MultibodySettings ReadMultibody(const config::Map& given) {
   car.brakes = ReadBrakes(root.Child("brakes").map());
   car.assists = ReadAssists(root.MapWith("assists"), car.brakes);
   car.powertrain = ReadPowertrain(given);
-  car.front_driven = root.Word("driven_axle") != "rear";
   car.mechanism = reader.drawing();
   for (const auto& part : car.mechanism.bodies) car.mass_kg += part.mass_kg;
   if (!car.mechanism.entities.empty()) car.dimensions = ReadMultibodyDimensions(root.Child("dimensions"), car);

@@ -41,7 +41,6 @@ struct MultibodySettings {
   BrakeSettings brakes;
   assists::AssistSettings assists;
   PowertrainSettings powertrain;
-  bool front_driven = false;
   double drag_area_m2 = 0.5;
   double air_density_kgpm3 = 1.2;
   multibody::Vector3d drag_point_m = multibody::Vector3d::Zero();  // on the chassis, as drawn

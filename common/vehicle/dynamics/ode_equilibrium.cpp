@@ -118,7 +118,8 @@ void OdeEquilibrium::Load() {
   holding_W_ = force.dot(normal_W_) * normal_W_ - force;
   std::array<double, kWheels> loads_N{};
   for (std::size_t i = 0; i < kWheels; ++i) loads_N[i] = model_.contacts_[i].load_N;
-  cruise_ = PushAlong(holding_W_.dot(Along()), loads_N, car().wheel, car().front_driven, initial_.speed_mps);
+  cruise_ =
+      PushAlong(holding_W_.dot(Along()), loads_N, car().wheel, car().powertrain, model_.tyres_, initial_.speed_mps);
   if (IsCruise(initial_)) ShareAcross();
 }
 
@@ -283,8 +284,9 @@ void OdeEquilibrium::SetInMotion() {
     }
     contact.forces = wheel.tyre.Forces(tyre, model_.MotionOf(i, contact), contact.load_N, wheel.friction);
   }
-  const std::size_t driven = car().front_driven ? kFrontLeft : kRearLeft;
-  const double turning = 0.5 * (model_.now_.wheels[driven].spin_radps + model_.now_.wheels[driven + 1].spin_radps);
+  std::array<double, kWheels> spin_radps{};
+  for (std::size_t i = 0; i < kWheels; ++i) spin_radps[i] = model_.now_.wheels[i].spin_radps;
+  const double turning = TurningOf(car().powertrain, spin_radps);
   if (cruises)
     model_.now_.powertrain.StartSteadily(car().powertrain, turning, cruise_.at_wheel_Nm);
   else

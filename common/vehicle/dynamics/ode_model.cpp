@@ -150,7 +150,7 @@ WheelTorques OdeModel::TurnWheels(const Controls& controls, const Contacts& cont
     input.longitudinal_N[i] = contacts[i].forces.longitudinal_N;
     spin_radps[i] = now_.wheels[i].spin_radps;
   }
-  const WheelDriveSettings drive{car.wheel, car.brakes, car.powertrain, car.assists, assist_car_, car.front_driven};
+  const WheelDriveSettings drive{car.wheel, car.brakes, car.powertrain, car.assists, assist_car_};
   const WheelTorques torques =
       dynamics::TurnWheels(drive, controls, input, dt_s, now_.powertrain, now_.assists, spin_radps);
   for (std::size_t i = 0; i < kWheels; ++i) now_.wheels[i].spin_radps = spin_radps[i];

@@ -106,6 +106,34 @@ DifferentialSettings ReadDifferential(const Map& given) {
   return differential;
 }
 
+CentreDifferentialSettings ReadCentreDifferential(const Map& given) {
+  const config::DeclaredMap map(given, CentreDifferentialKeys());
+  CentreDifferentialSettings centre;
+  centre.front_share = map.Number("front_share");
+  centre.locked = map.Flag("locked");
+  centre.plates.preload_Nm = map.Number("preload_Nm");
+  centre.plates.locking_drive = map.Number("locking_drive");
+  centre.plates.locking_overrun = map.Number("locking_overrun");
+  for (const char* key : {"preload_Nm", "locking_drive", "locking_overrun"})
+    if (centre.locked && given.Has(key))
+      given.Problem(key, "vehicle.locked_with_plates",
+                    fmt::format("'{}' is of plates that slip, and 'locked' is true: only one of them", key));
+  return centre;
+}
+
+DrivenWheels ReadDriven(const Map& root) {
+  const config::DeclaredMap map(root, DrivenAxleKeys());
+  const std::string driven = map.Word("driven_axle");
+  for (const char* key : {"centre_differential", "rear_differential"})
+    if (driven != "all" && root.Has(key))
+      root.Problem(
+          key, "vehicle.not_all_driven",
+          fmt::format("'{}' is of a car with 'driven_axle: all'; here it is '{}', whose differential is the key "
+                      "'differential'",
+                      key, driven));
+  return driven == "all" ? DrivenWheels::kAll : driven == "rear" ? DrivenWheels::kRear : DrivenWheels::kFront;
+}
+
 AutomaticSettings ReadAutomatic(const Map& given) {
   const config::DeclaredMap map(given, AutomaticKeys());
   AutomaticSettings automatic;
@@ -146,10 +174,13 @@ SlipCurve ReadSlipCurve(const Map& given) {
 
 PowertrainSettings ReadPowertrain(const Map& root) {
   PowertrainSettings powertrain;
+  powertrain.driven = ReadDriven(root);
   powertrain.engine = ReadEngine(root.Child("engine"));
   powertrain.clutch = ReadClutch(root.Child("clutch"));
   powertrain.gearbox = ReadGearbox(root.Child("gearbox"));
   powertrain.differential = ReadDifferential(root.OptionalChild("differential"));
+  powertrain.rear_differential = ReadDifferential(root.OptionalChild("rear_differential"));
+  powertrain.centre = ReadCentreDifferential(root.OptionalChild("centre_differential"));
   powertrain.automatic = ReadAutomatic(root.OptionalChild("automatic"));
   return powertrain;
 }

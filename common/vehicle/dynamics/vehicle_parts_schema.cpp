@@ -202,6 +202,24 @@ const std::vector<Key>& DifferentialKeys() {
   return keys;
 }
 
+const std::vector<Key>& CentreDifferentialKeys() {
+  static const CentreDifferentialSettings centre;
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all{
+        NumberKey("front_share", {0.05, 0.95}, centre.front_share, "Share of the torque for the front axle."),
+        config::FlagKey("locked", centre.locked, "Both axles turn alike; the tyres share the torque.")};
+    all.insert(all.end(), DifferentialKeys().begin(), DifferentialKeys().end());
+    return all;
+  }();
+  return keys;
+}
+
+const std::vector<Key>& DrivenAxleKeys() {
+  static const std::vector<Key> keys{
+      config::Required(config::WordKey("driven_axle", {"front", "rear", "all"}, "front", "Driven axle or axles."))};
+  return keys;
+}
+
 const std::vector<Key>& AutomaticKeys() {
   static const AutomaticSettings automatic;
   static const std::vector<Key> keys{

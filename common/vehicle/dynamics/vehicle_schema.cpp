@@ -29,7 +29,7 @@ std::vector<Key> FirstKeys(std::vector<std::string> models) {
 }
 
 config::Schema MakeVehicleSchema() {
-  const Key driven = Required(config::WordKey("driven_axle", {"front", "rear"}, "front", "Driven axle."));
+  const Key driven = DrivenAxleKeys().front();
   std::vector<Key> keys = FirstKeys({"bicycle", "ode"});
   for (Key& key : std::vector<Key>{
            driven, Required(MappingKey("body", BodyKeys(), "The whole car.")),
@@ -51,7 +51,11 @@ config::Schema MakeVehicleSchema() {
            Required(MappingKey("engine", EngineKeys(), "Engine.")),
            Required(MappingKey("clutch", ClutchKeys(), "Clutch.")),
            Required(MappingKey("gearbox", GearboxKeys(), "Gearbox.")),
-           MappingKey("differential", DifferentialKeys(), "Differential; open by default."),
+           MappingKey("differential", DifferentialKeys(),
+                      "Differential, that of the front axle with all driven; open."),
+           config::Summarised("as `differential`",
+                              MappingKey("rear_differential", DifferentialKeys(), "Of the rear axle with all driven.")),
+           MappingKey("centre_differential", CentreDifferentialKeys(), "Between the axles with all driven; open."),
            MappingKey("automatic", AutomaticKeys(), "Automatic gear changes."),
            MappingKey("ode", OdeKeys(), "Only for the model `ode`, which needs it.")})
     keys.push_back(std::move(key));
@@ -65,7 +69,7 @@ config::Schema MakeMultibodySchema() {
         Required(config::Summarised("as `front_left`", MappingKey(name, HungWheelKeys(), "The other wheels."))));
   std::vector<Key> keys = FirstKeys({"multibody"});
   for (Key& key : std::vector<Key>{
-           Required(config::WordKey("driven_axle", {"front", "rear"}, "front", "Driven axle.")),
+           DrivenAxleKeys().front(),
            config::NumberKey("longest_substep_s", {1e-5, 0.01}, MultibodySettings{}.longest_substep_s,
                              "Longer steps are divided."),
            Required(config::OtherKey("mechanism", "keys of a mechanism file", kSampleMechanism,
@@ -87,6 +91,10 @@ config::Schema MakeMultibodySchema() {
            Required(config::Summarised("as of `bicycle`", MappingKey("clutch", ClutchKeys(), "Clutch."))),
            Required(config::Summarised("as of `bicycle`", MappingKey("gearbox", GearboxKeys(), "Gearbox."))),
            config::Summarised("as of `bicycle`", MappingKey("differential", DifferentialKeys(), "Differential.")),
+           config::Summarised("as of `bicycle`",
+                              MappingKey("rear_differential", DifferentialKeys(), "Of the rear axle.")),
+           config::Summarised("as of `bicycle`",
+                              MappingKey("centre_differential", CentreDifferentialKeys(), "Between the axles.")),
            config::Summarised("as of `bicycle`", MappingKey("automatic", AutomaticKeys(), "Automatic gear changes."))})
     keys.push_back(std::move(key));
   return {"vehicle.multibody", "vehicle/1", "A car of the model 'multibody'.", std::move(keys)};

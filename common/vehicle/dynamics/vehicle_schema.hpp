@@ -26,6 +26,8 @@ const std::vector<config::Key>& EngineKeys();
 const std::vector<config::Key>& ClutchKeys();
 const std::vector<config::Key>& GearboxKeys();
 const std::vector<config::Key>& DifferentialKeys();
+const std::vector<config::Key>& CentreDifferentialKeys();
+const std::vector<config::Key>& DrivenAxleKeys();  // `driven_axle` alone
 const std::vector<config::Key>& AutomaticKeys();
 const std::vector<config::Key>& SlipCurveKeys();
 const std::vector<config::Key>& TyreKeys();

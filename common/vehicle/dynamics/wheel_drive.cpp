@@ -45,25 +45,28 @@ WheelTorques TurnWheels(const WheelDriveSettings& settings, const Controls& want
     road[i] = -radius * in.longitudinal_N[i];
     friction[i] = torques.brake_Nm[i] + settings.wheel.rolling_resistance * in.load_N[i] * radius;
   }
-  const std::size_t driven = settings.front_driven ? kFrontLeft : kRearLeft;
-  const std::size_t free = settings.front_driven ? kRearLeft : kFrontLeft;
   PowertrainInput input;
   input.wheel_inertia_kgm2 = settings.wheel.inertia_kgm2;
   input.speed_mps = in.speed_mps;
   input.inertia_torque_Nm = settings.car.mass_kg * radius * in.forward_mps2;
-  for (std::size_t i = 0; i < 2; ++i) {
-    input.wheel_radps[i] = spin_radps[driven + i];
-    input.road_torque_Nm[i] = road[driven + i];
-    input.friction_torque_Nm[i] = friction[driven + i];
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    if (!Drives(settings.powertrain.driven, AxleOf(i))) continue;
+    const bool second = settings.powertrain.driven == DrivenWheels::kAll && AxleOf(i) == 1;
+    AxleInput& axle = second ? input.rear : static_cast<AxleInput&>(input);
+    axle.wheel_radps[i % 2] = spin_radps[i];
+    axle.road_torque_Nm[i % 2] = road[i];
+    axle.friction_torque_Nm[i % 2] = friction[i];
   }
-  const DrivelineMotion& motion = powertrain.Step(settings.powertrain, controls, input, dt_s);
-  for (std::size_t i = 0; i < 2; ++i) {
-    spin_radps[driven + i] = motion.wheel_radps[i];
-    torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i] + motion.loss_torque_Nm[i];
-    torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i] - motion.loss_torque_Nm[i];
-    torques.friction_Nm[free + i] = friction[free + i];
-    spin_radps[free + i] = StepFreeWheel(spin_radps[free + i], settings.wheel.inertia_kgm2, road[free + i],
-                                         torques.friction_Nm[free + i], dt_s);
+  (void)powertrain.Step(settings.powertrain, controls, input, dt_s);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    if (const AxleMotion* motion = powertrain.AxleOf(settings.powertrain, AxleOf(i))) {
+      spin_radps[i] = motion->wheel_radps[i % 2];
+      torques.drive_Nm[i] = motion->wheel_torque_Nm()[i % 2];
+      torques.friction_Nm[i] = motion->friction_torque_Nm[i % 2] - motion->loss_torque_Nm[i % 2];
+    } else {
+      torques.friction_Nm[i] = friction[i];
+      spin_radps[i] = StepFreeWheel(spin_radps[i], settings.wheel.inertia_kgm2, road[i], torques.friction_Nm[i], dt_s);
+    }
   }
   return torques;
 }

@@ -17,7 +17,6 @@ struct WheelDriveSettings {
   const PowertrainSettings& powertrain;
   const assists::AssistSettings& assists;
   const assists::AssistCar& car;
-  bool front_driven;
 };
 
 // What the car around them tells the wheels at the beginning of a step.

@@ -355,7 +355,7 @@ TEST(BicycleOnSplitFriction, PlatesHelpAsMuchAsTheirLockingValueSays) {
     double shortest_mps2 = 1e9, left_Nm = 0.0, right_Nm = 0.0;
     Drive(car, ground, controls, 2.0, [&](int step) {
       if (step < 1000) return;  // the left wheel spins since long
-      const std::size_t driven = settings.front_driven ? kFrontLeft : kRearLeft;
+      const std::size_t driven = settings.powertrain.driven == DrivenWheels::kFront ? kFrontLeft : kRearLeft;
       const auto& wheels = car.state().wheels;
       EXPECT_GT(wheels[driven].spin_radps, 2.0 * wheels[driven + 1].spin_radps);
       left_Nm += wheels[driven].drive_torque_Nm;

@@ -25,7 +25,7 @@ BicycleSettings Van() {
   BicycleSettings settings = DefaultSettings();
   settings.body.mass_kg = 1900.0;
   settings.body.yaw_inertia_kgm2 = 3200.0;
-  settings.front_driven = false;
+  settings.powertrain.driven = DrivenWheels::kRear;
   for (TyreSettings& tyre : settings.tyre)
     tyre.slip_curve = SlipCurveSettings{{0.1, 1.0, 0.4, 0.8}, {0.12, 0.95, 0.5, 0.8}};
   return settings;

@@ -293,24 +293,32 @@ TEST(Differential, LocksByPreloadAndByTheTorqueOfItsDirection) {
 }
 
 // The complementarity conditions themselves are the oracle.
-RC_GTEST_PROP(Friction, TheSolutionSticksOrSlides, (std::uint32_t seed)) {
+template <int kElements>
+void ExpectStickingOrSliding(std::uint32_t seed) {
   const auto draw = [&](std::uint64_t what, double low, double high) {
     return base::RandomUniform({seed, what}, low, high);
   };
-  FrictionMatrix root;
-  for (int i = 0; i < 25; ++i) root(i / 5, i % 5) = draw(static_cast<std::uint64_t>(i), -1, 1);
-  const FrictionMatrix a = root * root.transpose() + 0.01 * FrictionMatrix::Identity();
-  FrictionVector s, bound;
-  for (int i = 0; i < kFrictionElements; ++i) {
-    s[i] = draw(40 + static_cast<std::uint64_t>(i), -2, 2);
-    bound[i] = std::max(0.0, draw(50 + static_cast<std::uint64_t>(i), -0.5, 3));
+  FrictionMatrix<kElements> root;
+  for (int i = 0; i < kElements * kElements; ++i)
+    root(i / kElements, i % kElements) = draw(static_cast<std::uint64_t>(i), -1, 1);
+  const FrictionMatrix<kElements> a = root * root.transpose() + 0.01 * FrictionMatrix<kElements>::Identity();
+  FrictionVector<kElements> s, bound;
+  for (int i = 0; i < kElements; ++i) {
+    s[i] = draw(140 + static_cast<std::uint64_t>(i), -2, 2);
+    bound[i] = std::max(0.0, draw(150 + static_cast<std::uint64_t>(i), -0.5, 3));
   }
-  const FrictionVector p = SolveFriction(a, s, bound);
-  const FrictionVector slide = s + a * p;
-  for (int i = 0; i < kFrictionElements; ++i) {
+  const FrictionVector<kElements> p = SolveFriction<kElements>(a, s, bound);
+  const FrictionVector<kElements> slide = s + a * p;
+  for (int i = 0; i < kElements; ++i) {
     RC_ASSERT(std::fabs(p[i]) <= bound[i]);
     if (std::fabs(slide[i]) > 1e-9) RC_ASSERT(std::fabs(p[i] + std::copysign(bound[i], slide[i])) < 1e-12);
   }
+}
+
+RC_GTEST_PROP(Friction, TheSolutionSticksOrSlides, (std::uint32_t seed)) { ExpectStickingOrSliding<5>(seed); }
+
+RC_GTEST_PROP(Friction, TheSolutionOfTwoDrivenAxlesSticksOrSlides, (std::uint32_t seed)) {
+  ExpectStickingOrSliding<9>(seed);
 }
 
 TEST(Gearbox, RatiosAreTheThesis) {

@@ -72,7 +72,7 @@ BicycleSettings PrototypeAsBicycle(const MultibodySettings& car) {
   b.tyre[0].formula.lky *= 0.5 * axles.front_Nprad / CorneringStiffness(car.tyre[0], load);
   b.brakes = car.brakes;
   b.powertrain = car.powertrain;
-  b.front_driven = car.front_driven;
+  b.powertrain.driven = car.powertrain.driven;
   return b;
 }
 

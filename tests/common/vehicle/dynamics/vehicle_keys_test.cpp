@@ -41,6 +41,14 @@ void AddSlipCurve(const std::string& axle, config::Companions& others, std::set<
   }
 }
 
+// The differentials of a car with all wheels driven.
+void AddAllWheelDrive(config::Companions& others) {
+  const config::Values all{{"driven_axle", "all"}};
+  for (const std::string name : {"centre_differential", "rear_differential"}) others[name] = all;
+  for (const config::Key& key : CentreDifferentialKeys()) others["centre_differential." + key.name] = all;
+  for (const config::Key& key : DifferentialKeys()) others["rear_differential." + key.name] = all;
+}
+
 // A generated file for each declared key. Speeds of the engine and points of a slip curve are bounds of each other; the
 // wheels of the model `ode` are lighter than the car, and its body is over the ground.
 TEST(VehicleKeys, EveryDeclaredKeyKeepsItsTypeAndBounds) {
@@ -64,6 +72,7 @@ TEST(VehicleKeys, EveryDeclaredKeyKeepsItsTypeAndBounds) {
                                   "engine.resume_rpm", "automatic.bite_rpm",    "automatic.closed_rpm",
                                   "ode.wheel_mass_kg", "ode.wheel_across_kgm2", "ode.clearance_m"};
   for (const std::string axle : {"tyre.front", "tyre.rear"}) AddSlipCurve(axle, others, no_bounds);
+  AddAllWheelDrive(others);
   config::ExpectEveryKey(VehicleSchema(), problem, others, no_bounds);
 }
 
@@ -80,6 +89,7 @@ TEST(VehicleKeys, EveryDeclaredKeyOfAMultibodyCarKeepsItsTypeAndBounds) {
   std::set<std::string> no_bounds{"engine.idle_rpm",   "engine.stall_rpm",   "engine.cut_rpm",
                                   "engine.resume_rpm", "automatic.bite_rpm", "automatic.closed_rpm"};
   for (const std::string axle : {"tyre.front", "tyre.rear"}) AddSlipCurve(axle, others, no_bounds);
+  AddAllWheelDrive(others);
   config::ExpectEveryKey(MultibodySchema(), problem, others, no_bounds);
 }
 
