@@ -97,14 +97,17 @@ class Gate {
   bool done_ = false;
 };
 
-// The car that is to be placed is one that hears of it.
+// The car that an event names is one that hears of it.
 base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::string>& vehicles) {
   const auto place = scenario::ParsePlace(event.argument);
-  if (!place) return place.error();
-  if (std::find(vehicles.begin(), vehicles.end(), place.value().vehicle) != vehicles.end()) return {};
-  return base::WrongInput("launch.not_wired",
-                          fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle,
-                                      base::DidYouMean(place.value().vehicle, vehicles)));
+  const auto gust = scenario::ParseGust(event.argument);
+  const bool is_gust = event.name == scenario::kVehicleGust;
+  if (is_gust && !gust) return gust.error();
+  if (!is_gust && !place) return place.error();
+  const std::string& vehicle = is_gust ? gust.value().vehicle : place.value().vehicle;
+  if (std::find(vehicles.begin(), vehicles.end(), vehicle) != vehicles.end()) return {};
+  return base::WrongInput("launch.not_wired", fmt::format("no vehicle '{}' is wired to this scenario{}", vehicle,
+                                                          base::DidYouMean(vehicle, vehicles)));
 }
 
 class ScenarioNode final : public lockstep::Node {
@@ -214,7 +217,7 @@ class ScenarioNode final : public lockstep::Node {
     for (const launch::LiveRequest& request : requests_->Take()) {
       const auto event = scenario::EventOf({request.name, request.argument, request.x_m, request.y_m, request.value});
       base::Status sound = event ? base::Status() : event.error();
-      if (sound && event.value().name == scenario::kVehiclePlace) sound = CheckVehicle(event.value(), vehicles_);
+      if (sound && event.value().name.starts_with("vehicle.")) sound = CheckVehicle(event.value(), vehicles_);
       if (sound)
         Add(event.value(), valid, events);
       else
@@ -263,7 +266,7 @@ base::Status CheckObeyed(const launch::NodeContext& context, const scenario::Sce
   const bool traffic = !Obedient(context, "traffic").empty();
   const std::vector<std::string> vehicles = Obedient(context, "vehicle");
   const auto check = [&](const scenario::Event& event) -> base::Status {
-    if (event.name == scenario::kVehiclePlace) {
+    if (event.name.starts_with("vehicle.")) {
       const base::Status known = CheckVehicle(event, vehicles);
       return known ? known : known.error().WithContext(file.string());
     }

@@ -20,6 +20,7 @@
 #include "nodes/messages/controls.hpp"
 #include "nodes/messages/vehicle_state.hpp"
 #include "nodes/vehicle/collisions.hpp"
+#include "nodes/vehicle/gust.hpp"
 #include "nodes/vehicle/obstacle_map.hpp"
 
 namespace rodeira::nodes {
@@ -52,12 +53,19 @@ class VehicleNode final : public lockstep::Node {
     if (!controls) return controls.error();
     if (auto status = Obey(inbox); !status) return status;
     msg::Collisions touched;
+    dynamics::Wrench push;
     if (collisions_) {
       auto found = collisions_->Find(model_->state(), inbox, step);
       if (!found) return found.error();
-      model_->SetPush(found.value().push);
+      push = found.value().push;
       touched = std::move(found.value().event);
     }
+    if (gust_.blows()) {
+      const dynamics::Wrench wind = SideWind(model_->state(), model_->dimensions(), gust_.Step(step.dt_s));
+      push.force_W += wind.force_W;
+      push.moment_WB_W += wind.moment_WB_W;
+    }
+    if (collisions_ || push.any()) model_->SetPush(push);
     if (inbox.Has(topics::kWeatherState)) {
       const auto weather = idl::Decode<msg::WeatherState>(*inbox.Latest(topics::kWeatherState).payload);
       if (!weather) return weather.error();
@@ -81,31 +89,46 @@ class VehicleNode final : public lockstep::Node {
 
   void Save(base::StateWriter& out) const override {
     out.Put("model", *model_);
+    out.Put("gust", gust_);
     if (collisions_) out.Put("collisions", *collisions_);
   }
   void Restore(base::StateReader& in) override {
     in.Get("model", *model_);
+    in.Get("gust", gust_);
     if (collisions_) in.Get("collisions", *collisions_);
   }
   bool can_save() const override { return model_->can_save(); }
 
  private:
-  // Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand is told; then
-  // it stays as it is.
+  // A gust begins. Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand
+  // is told; then it stays as it is.
   base::Status Obey(const lockstep::Inbox& inbox) {
     if (!inbox.Has(topics::kScenarioEvents)) return {};
     for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
       const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);
       if (!events) return events.error();
       for (const msg::ScenarioEvent& event : events.value().events()) {
-        if (event.name() != scenario::kVehiclePlace) continue;
-        const auto place = scenario::ParsePlace(event.argument());
-        if (!place)
-          return place.error().WithContext(fmt::format("event '{}' at step {}", event.name(), sample.valid()));
-        if (place.value().vehicle == name_) Place(place.value(), event.value());
+        const auto placed = [&](const base::Error& error) {
+          return error.WithContext(fmt::format("event '{}' at step {}", event.name(), sample.valid()));
+        };
+        if (event.name() == scenario::kVehiclePlace) {
+          const auto place = scenario::ParsePlace(event.argument());
+          if (!place) return placed(place.error());
+          if (place.value().vehicle == name_) Place(place.value(), event.value());
+        } else if (event.name() == scenario::kVehicleGust) {
+          const auto gust = scenario::ParseGust(event.argument());
+          if (!gust) return placed(gust.error());
+          if (gust.value().vehicle == name_) BeginGust(gust.value(), event.value());
+        }
       }
     }
     return {};
+  }
+  void BeginGust(const scenario::GustChoice& gust, double peak_mps) {
+    if (!model_->can_be_pushed())
+      base::Log(base::LogLevel::kWarning, name_,
+                "the vehicle model takes no forces from outside: wind does not move it");
+    gust_.Begin(gust, peak_mps);
   }
   void Place(const scenario::PlaceChoice& place, double heading_deg) {
     dynamics::InitialCondition there;
@@ -131,6 +154,7 @@ class VehicleNode final : public lockstep::Node {
   std::unique_ptr<ground::Ground> own_ground_;
   weather::WetGround ground_;             // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nothing
+  Gust gust_;
 };
 
 // The world that the road server has too: what its files answer in this process are the server's bits. `without`: the

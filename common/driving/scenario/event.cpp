@@ -27,6 +27,7 @@ constexpr std::array kKinds = std::to_array<EventKind>({
     {kTrafficAppear, "agent", ArgumentKind::kAgentOnLane, "speed_mps", 0.0, 100.0},
     {kTrafficPedestrian, "crossing", ArgumentKind::kCrossing, "", 0.0, 0.0},
     {kVehiclePlace, "place", ArgumentKind::kPlace, "heading_deg", -360.0, 360.0},
+    {kVehicleGust, "gust", ArgumentKind::kGust, "speed_mps", 0.0, 60.0},
     {kWeatherChange, "becomes", ArgumentKind::kWeather, "over_s", 0.0, 3600.0},
 });
 
@@ -136,6 +137,20 @@ std::string PlaceText(const PlaceChoice& place) {
   return place.z_m ? fmt::format("{} {}", plan, *place.z_m) : plan;
 }
 
+base::Result<GustChoice> ParseGust(std::string_view text) {
+  const auto words = WordsOf(text);
+  if (words.size() == 3 && !words[0].empty()) {
+    const auto from = NumberIn(words[1]), seconds = NumberIn(words[2]);
+    if (from && seconds && std::fabs(*from) <= 360.0 && *seconds > 0.0 && *seconds <= 3600.0)
+      return GustChoice{std::string(words[0]), *from, *seconds};
+  }
+  return base::WrongInput(
+      "scenario.wrong_text",
+      fmt::format("'{}' is no gust; the name of a vehicle node, degrees (-360 to 360, 0 is east, 90 north) from where "
+                  "it blows, and seconds (over 0, to 3600) were expected, as in 'ego 90 1.5'",
+                  text.substr(0, 60)));
+}
+
 base::Result<CrossingChoice> ParseCrossing(std::string_view text) {
   auto words = WordsOf(text);
   CrossingChoice crossing;
@@ -172,6 +187,8 @@ base::Status CheckEvent(const Event& event) {
     if (const auto crossing = ParseCrossing(event.argument); !crossing) return crossing.error();
   } else if (kind->argument == ArgumentKind::kPlace) {
     if (const auto place = ParsePlace(event.argument); !place) return place.error();
+  } else if (kind->argument == ArgumentKind::kGust) {
+    if (const auto gust = ParseGust(event.argument); !gust) return gust.error();
   } else if (kind->argument == ArgumentKind::kWeather) {
     if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
   }

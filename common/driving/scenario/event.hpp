@@ -22,6 +22,7 @@ inline constexpr std::string_view kTrafficChangeLane =
 inline constexpr std::string_view kTrafficAppear = "traffic.appear";  // a vehicle comes onto the middle of a lane
 inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // a pedestrian comes to a crossing
 inline constexpr std::string_view kVehiclePlace = "vehicle.place";  // a driver's car stands elsewhere: INI there
+inline constexpr std::string_view kVehicleGust = "vehicle.gust";    // wind across a driver's car, for a while
 inline constexpr std::string_view kWeatherChange = "weather";  // becomes one that has a name, within so many seconds
 
 // As on the wire (idl/scenario.idl).
@@ -31,7 +32,7 @@ struct Event {
   double value = 0.0;
 };
 
-enum class ArgumentKind { kText, kAgent, kAgentOnLane, kPlace, kWeather, kCrossing };
+enum class ArgumentKind { kText, kAgent, kAgentOnLane, kPlace, kGust, kWeather, kCrossing };
 enum class ValueKind { kNumber, kSide };  // a side: `left` is 1, `right` -1
 
 // What a kind of event is told, and under which keys a person writes it.
@@ -73,6 +74,14 @@ struct PlaceChoice {
 };
 base::Result<PlaceChoice> ParsePlace(std::string_view text);
 std::string PlaceText(const PlaceChoice& place);
+
+// Wind that meets a car from a side, and for how long: "ego 90 1.5" is from the north (0 is east), 1.5 s.
+struct GustChoice {
+  std::string vehicle;
+  double from_deg = 0.0;
+  double for_s = 0.0;  // over 0
+};
+base::Result<GustChoice> ParseGust(std::string_view text);
 
 // The crossing of a road nearest to a station, and from which side of the road a pedestrian comes: "main 120", "main
 // 120 left"; right where no side is said.

@@ -34,6 +34,21 @@ TEST(Event, WhatIsNoPlaceIsRefused) {
   }
 }
 
+TEST(Event, AGustIsACarADirectionAndSeconds) {
+  const auto gust = ParseGust("ego -45.5 1.5");
+  ASSERT_TRUE(gust.ok());
+  EXPECT_EQ(gust.value().vehicle, "ego");
+  EXPECT_EQ(gust.value().from_deg, -45.5);
+  EXPECT_EQ(gust.value().for_s, 1.5);
+  for (const char* text :
+       {"", "ego", "ego 1", "ego 361 1", "ego 90 0", "ego 90 -1", "ego 90 nan", "ego 90 1 2", " 90 1", "ego 90 4000"}) {
+    ASSERT_FALSE(ParseGust(text).ok()) << text;
+    EXPECT_EQ(CheckEvent({"vehicle.gust", text, 10.0}).error().id.text(), "scenario.wrong_text") << text;
+  }
+  EXPECT_TRUE(CheckEvent({"vehicle.gust", "ego 90 1.5", 60.0}));
+  EXPECT_EQ(CheckEvent({"vehicle.gust", "ego 90 1.5", 61.0}).error().id.text(), "scenario.wrong_value");
+}
+
 TEST(Event, ACrossingIsARoadAPlaceAndASide) {
   const auto right = ParseCrossing("main 120.5"), left = ParseCrossing("long road 3 left");
   ASSERT_TRUE(right.ok() && left.ok());

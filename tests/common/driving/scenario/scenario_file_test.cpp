@@ -154,6 +154,7 @@ TEST(ScenarioFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
                        appear =
                            event("traffic.appear", {{"agent", "1"}, {"at", "{lane: a:1, s_m: 1}"}, {"speed_mps", "1"}}),
                        place = event("vehicle.place", {{"place", "ego 1 2"}, {"heading_deg", "0"}}),
+                       gust = event("vehicle.gust", {{"gust", "ego 90 1"}, {"speed_mps", "1"}}),
                        weather = event("weather", {{"becomes", "rain"}, {"over_s", "0"}}),
                        side = event("traffic.change_lane", {{"agent", "1"}, {"side", "left"}});
   config::Values at = release, lane = event("traffic.appear", {{"agent", "1"}, {"speed_mps", "1"}, {"at.s_m", "1"}}),
@@ -186,6 +187,7 @@ TEST(ScenarioFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
                           {"events[].name=traffic.appear", appear},
                           {"events[].name=traffic.pedestrian", event("traffic.pedestrian", {{"crossing", "main 1"}})},
                           {"events[].name=vehicle.place", place},
+                          {"events[].name=vehicle.gust", gust},
                           {"events[].name=weather", weather},
                           {"events[].text", event("mark", {})},
                           {"events[].agent", release},
@@ -195,6 +197,7 @@ TEST(ScenarioFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
                           {"events[].at.lane", lane},
                           {"events[].crossing", event("traffic.pedestrian", {})},
                           {"events[].place", place},
+                          {"events[].gust", gust},
                           {"events[].becomes", weather},
                           {"events[].deceleration_mps2", brake},
                           {"events[].speed_mps", appear},
