@@ -11,7 +11,7 @@ namespace {
 Series WheelIn(const DriveCut& cut) { return cut(cut.drive.steering_wheel_deg); }
 
 Measure ReversalsIn(const DriveCut& cut, const OptionValues& o) {
-  return ReversalRate(WheelIn(cut), cut.drive.rate_hz, {o["cutoff_hz"], o["gap_deg"], kPaddingOfMatlab});
+  return ReversalRate(WheelIn(cut), cut.drive.rate_hz, {o["cutoff_hz"], o["gap_deg"]});
 }
 
 // By a method that needs the driver's baseline.

@@ -58,6 +58,10 @@ std::vector<double> FilterForward(const SecondOrderSection& section, Series x) {
   return y;
 }
 
+std::size_t PaddingSamples(double padding_s, double rate_hz) {
+  return static_cast<std::size_t>(std::llround(std::max(0.0, padding_s * rate_hz)));
+}
+
 std::vector<double> FilterBothWays(const SecondOrderSection& section, Series x, std::size_t padding) {
   const std::size_t n = x.size();
   if (n <= padding) return {};

@@ -20,9 +20,12 @@ SecondOrderSection ButterworthLowPass(double cutoff_hz, double rate_hz);
 SecondOrderSection ButterworthHighPass(double cutoff_hz, double rate_hz);
 bool IsCutoff(double cutoff_hz, double rate_hz);
 
-// Samples by which FilterBothWays extends a series at each end. Both are used in practice and give other edges.
-inline constexpr std::size_t kPaddingOfMatlab = 6;  // filtfilt of MATLAB and Octave: 3 times the order
-inline constexpr std::size_t kPaddingOfSciPy = 9;   // filtfilt of SciPy: 3 times the number of coefficients
+// Samples by which FilterBothWays extends a series at each end: filtfilt of SciPy, 3 times the number of coefficients.
+inline constexpr std::size_t kPaddingOfSciPy = 9;
+// The 6 samples of MATLAB's filtfilt at the 30 Hz of the authors' steering recordings, as a time: counts near the ends
+// depend on it, and with a number of samples they would depend on the rate.
+inline constexpr double kPaddingOfAuthors_s = 0.2;
+std::size_t PaddingSamples(double padding_s, double rate_hz);
 
 // Forward in time only, from the steady state of the first sample. Precondition: no sample is missing.
 std::vector<double> FilterForward(const SecondOrderSection& section, Series x);

@@ -45,14 +45,15 @@ std::size_t CountReversals(Series smooth_deg, double gap_deg) {
 Measure ReversalRate(Series wheel_deg, double rate_hz, const ReversalOptions& options) {
   const UsedOptions used = Used({{"cutoff_hz", options.cutoff_hz},
                                  {"gap_deg", options.gap_deg},
-                                 {"padding_samples", static_cast<int>(options.padding)},
+                                 {"padding_s", options.padding_s},
                                  {"rate_hz", rate_hz}});
   if (!IsCutoff(options.cutoff_hz, rate_hz))
     return NotFound("the cut-off is not between 0 and half the sample rate", "1/min", 0, wheel_deg.size(), used);
   const auto section = ButterworthLowPass(options.cutoff_hz, rate_hz);
   std::size_t reversals = 0, n = 0, periods = 0;
   for (const SampleRun& run : ValidRuns(wheel_deg)) {
-    const auto smooth = FilterBothWays(section, wheel_deg.subspan(run.from, run.size()), options.padding);
+    const auto smooth =
+        FilterBothWays(section, wheel_deg.subspan(run.from, run.size()), PaddingSamples(options.padding_s, rate_hz));
     if (smooth.size() < 2) continue;
     reversals += CountReversals(smooth, options.gap_deg);
     n += smooth.size();

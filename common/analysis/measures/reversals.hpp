@@ -13,7 +13,7 @@ namespace rodeira::measures {
 struct ReversalOptions {
   double cutoff_hz = 0.6;
   double gap_deg = 3.0;  // of the steering wheel; a reversal is larger
-  std::size_t padding = kPaddingOfMatlab;
+  double padding_s = kPaddingOfAuthors_s;  // at each end; of one time at every rate
 };
 
 // Reversals of a low-passed angle in both directions. An upward one goes from a stationary point to a later one that

@@ -78,7 +78,8 @@ Measure SteeringEntropy1999(Series wheel_deg, Series baseline_deg, double rate_h
 std::vector<double> At4Hz(Series wheel_deg, double rate_hz) {
   const double cutoff_hz = 3.0 / 7.0 * kEntropyRate_hz;
   if (!IsCutoff(cutoff_hz, rate_hz)) return {};
-  const auto smooth = FilterRunsBothWays(ButterworthLowPass(cutoff_hz, rate_hz), wheel_deg, kPaddingOfMatlab);
+  const auto smooth = FilterRunsBothWays(ButterworthLowPass(cutoff_hz, rate_hz), wheel_deg,
+                                         PaddingSamples(kPaddingOfAuthors_s, rate_hz));
   return Resample(smooth, rate_hz, kEntropyRate_hz);
 }
 
@@ -144,7 +145,7 @@ Measure SteeringEntropy2005(Series wheel_deg, Series baseline_deg, double rate_h
   UsedOptions used = Used({{"method", "2005"},
                            {"rate_hz", kEntropyRate_hz},
                            {"cutoff_hz", 3.0 / 7.0 * kEntropyRate_hz},
-                           {"padding_samples", static_cast<int>(kPaddingOfMatlab)},
+                           {"padding_s", kPaddingOfAuthors_s},
                            {"percentile_type", 7}});
   const auto missing = [&](const char* reason) { return NotFound(reason, "bit", 0, wheel_deg.size(), used); };
   if (static_cast<double>(baseline_deg.size()) < kShortest_s * rate_hz)

@@ -99,18 +99,25 @@ TEST(Invariances, AnIntervalInParts) {
   }));
 }
 
-// 1 kHz and 100 Hz: means, deviations and shares within 1 %, counts within one.
+// 1 kHz and 100 Hz: means, deviations and shares within 1 %, counts within one. With ends that are
+// extended by one number of samples at every rate there are two reversals more at seeds 562, 1362 and 1639.
 TEST(Invariances, DecimatedToAHundredHertz) {
-  EXPECT_TRUE(rc::check("decimate", [](std::uint64_t seed) {
+  const auto holds = [](std::uint64_t seed) {
     const auto fast = Wander(seed, 40.0, 1000.0);
     const auto slow = Decimate(fast, 10);
-    RC_ASSERT(slow.size() == fast.size() / 10);
     const auto close = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(a); };
-    RC_ASSERT(close(*Deviation(fast, Denominator::kN), *Deviation(slow, Denominator::kN)));
-    RC_ASSERT(close(*MeanSteeringRate(fast, 1000.0).value, *MeanSteeringRate(slow, 100.0).value));
-    const double counts = (*ReversalRate(fast, 1000.0, {}).value - *ReversalRate(slow, 100.0, {}).value) * 40.0 / 60.0;
-    RC_ASSERT(std::abs(counts) <= 1.1);
-  }));
+    const auto counted = [](Series x, double rate_hz) {
+      return *ReversalRate(x, rate_hz, {}).value * static_cast<double>(x.size() - 1) / rate_hz / 60.0;
+    };
+    return slow.size() == fast.size() / 10 &&
+           close(*Deviation(fast, Denominator::kN), *Deviation(slow, Denominator::kN)) &&
+           close(*MeanSteeringRate(fast, 1000.0).value, *MeanSteeringRate(slow, 100.0).value) &&
+           std::abs(counted(fast, 1000.0) - counted(slow, 100.0)) < 1.5;
+  };
+  constexpr std::uint64_t kSeeds = 200;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) EXPECT_TRUE(holds(seed)) << seed;
+  for (const std::uint64_t seed : {562u, 1362u, 1639u}) EXPECT_TRUE(holds(seed)) << seed;
+  EXPECT_TRUE(rc::check("decimate", [&](std::uint64_t seed) { RC_ASSERT(holds(seed)); }));
 }
 
 }  // namespace

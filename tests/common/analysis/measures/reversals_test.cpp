@@ -22,7 +22,7 @@ TEST(Reversals, TheAuthorsRecordingsHaveTheAuthorsCounts) {
     if (found == signals.end() || found->second.size() != 751u) return -1.0;
     return *ReversalRate(found->second, kRate, options).value;
   };
-  for (const std::size_t padding : {kPaddingOfMatlab, kPaddingOfSciPy}) {
+  for (const double padding : {kPaddingOfAuthors_s, static_cast<double>(kPaddingOfSciPy) / kRate}) {
     EXPECT_NEAR(rate("Baseline", {0.6, 3.0, padding}), 12.0, 1e-9);
     EXPECT_NEAR(rate("VisualTask", {0.6, 3.0, padding}), 19.2, 1e-9);
     EXPECT_NEAR(rate("Baseline", {2.0, 0.1, padding}), 64.8, 1e-9);
@@ -42,8 +42,8 @@ TEST(Reversals, SinesHaveTheirSwings) {
   EXPECT_EQ(CountOfSine(5.0, 0.2, {}), 24u);
   EXPECT_EQ(CountOfSine(2.0, 0.2, {}), 23u);
   EXPECT_EQ(CountOfSine(1.4, 0.2, {}), 0u);
-  EXPECT_EQ(CountOfSine(30.0, 1.2, {.padding = 0}), 141u);
-  EXPECT_EQ(CountOfSine(20.0, 1.2, {.padding = 0}), 1u);
+  EXPECT_EQ(CountOfSine(30.0, 1.2, {.padding_s = 0.0}), 141u);
+  EXPECT_EQ(CountOfSine(20.0, 1.2, {.padding_s = 0.0}), 1u);
 }
 
 // By hand: a reversal is larger than the gap, and the search goes on from its end.
