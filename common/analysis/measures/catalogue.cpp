@@ -21,8 +21,8 @@ double OptionValues::operator[](std::string_view name) const {
 const std::vector<MeasureInfo>& Catalogue() {
   static const std::vector<MeasureInfo> kCatalogue = [] {
     std::vector<MeasureInfo> all;
-    for (auto family :
-         {LateralMeasures, SteeringMeasures, SpeedMeasures, LeaderMeasures, DriverMeasures, LaneChangeTestMeasures}) {
+    for (auto family : {LateralMeasures, SteeringMeasures, SpeedMeasures, LeaderMeasures, EncounterMeasures,
+                        DriverMeasures, LaneChangeTestMeasures}) {
       auto measures = family();
       std::move(measures.begin(), measures.end(), std::back_inserter(all));
     }

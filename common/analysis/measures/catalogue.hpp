@@ -66,6 +66,7 @@ std::vector<MeasureInfo> LateralMeasures();
 std::vector<MeasureInfo> SteeringMeasures();
 std::vector<MeasureInfo> SpeedMeasures();
 std::vector<MeasureInfo> LeaderMeasures();
+std::vector<MeasureInfo> EncounterMeasures();
 std::vector<MeasureInfo> DriverMeasures();
 std::vector<MeasureInfo> LaneChangeTestMeasures();
 

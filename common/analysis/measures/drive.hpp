@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/analysis/measures/encounter.hpp"
 #include "common/analysis/measures/measure.hpp"
 
 namespace rodeira::measures {
@@ -51,6 +53,9 @@ struct Drive {
   std::vector<std::int8_t> crossing;  // lane changes (lane_change.hpp)
   Neighbour leader, follower;
   Neighbour left_leader, left_follower, right_leader, right_follower;  // in the next lanes of the same direction
+
+  // With vehicles that cross or join the path, by time; nothing: the paths of others are not known.
+  std::optional<std::vector<Encounter>> encounters;
 
   std::size_t size() const { return x_m.size(); }
 };

@@ -42,9 +42,13 @@ void DriveBuilder::SetFootprint(double length_m, double front_m, double width_m)
 }
 
 void DriveBuilder::GrowTo(std::size_t size) {
-  drive_.episode.resize(size, episode_);
-  GrowColumns(drive_, size);
-  along_m_.resize(size, kMissing);
+  constexpr std::size_t kBlock = 4096;  // some fifty columns grow together: not at each sample
+  if (size > drive_.size()) {
+    const std::size_t whole = (size + kBlock - 1) / kBlock * kBlock;
+    GrowColumns(drive_, whole);
+    along_m_.resize(whole, kMissing);
+  }
+  for (std::size_t k = next_; k < size; ++k) drive_.episode[k] = episode_;
 }
 
 void DriveBuilder::AddSubject(std::size_t k, const SubjectSample& sample) {
@@ -53,15 +57,26 @@ void DriveBuilder::AddSubject(std::size_t k, const SubjectSample& sample) {
   GrowTo(k + 1);
   next_ = k + 1;
   PutSubject(sample, k, drive_);
+  // It was set somewhere else, or the samples between are missing: no lane is left from there.
+  constexpr double kJump_m = 5.0;
+  const bool jumps = k > 0 && std::hypot(drive_.x_m[k] - drive_.x_m[k - 1], drive_.y_m[k] - drive_.y_m[k - 1]) >
+                                  kJump_m + 2.0 * std::abs(sample.speed_mps) / drive_.rate_hz;
+  AddToPath(k, gap || jumps);
   if (graph_) {
-    // It was set somewhere else, or the samples between are missing: no lane is left from there.
-    constexpr double kJump_m = 5.0;
-    const bool jumps = k > 0 && std::hypot(drive_.x_m[k] - drive_.x_m[k - 1], drive_.y_m[k] - drive_.y_m[k - 1]) >
-                                    kJump_m + 2.0 * std::abs(sample.speed_mps) / drive_.rate_hz;
     if (gap || jumps) last_place_.reset();
     AddLane(k, sample);
   }
   if (k >= kLag) ProcessThrough(k - kLag);
+}
+
+void DriveBuilder::AddToPath(std::size_t k, bool breaks) {
+  const double heading = drive_.heading_rad[k], ahead = drive_.front_m - 0.5 * drive_.length_m;
+  const Footprint footprint{{drive_.x_m[k] + ahead * std::cos(heading), drive_.y_m[k] + ahead * std::sin(heading)},
+                            heading,
+                            drive_.length_m,
+                            drive_.width_m};
+  if (!std::isnan(footprint.middle_W.sum() + drive_.width_m))
+    encounters_.AddOwn(static_cast<double>(k) / drive_.rate_hz, drive_.z_m[k], footprint, breaks);
 }
 
 void DriveBuilder::AddLane(std::size_t k, const SubjectSample& sample) {
@@ -80,7 +95,6 @@ void DriveBuilder::AddLane(std::size_t k, const SubjectSample& sample) {
 }
 
 void DriveBuilder::AddOthers(std::size_t k, const std::vector<OtherVehicle>& others, bool traffic) {
-  if (!graph_) return;
   Frame& frame = frames_[k];
   frame.others.insert(frame.others.end(), others.begin(), others.end());
   frame.traffic = frame.traffic || traffic;
@@ -89,7 +103,10 @@ void DriveBuilder::AddOthers(std::size_t k, const std::vector<OtherVehicle>& oth
 void DriveBuilder::ProcessThrough(std::size_t k) {
   while (!frames_.empty() && frames_.begin()->first <= k) {
     const auto& [at, frame] = *frames_.begin();
-    if (frame.traffic || !has_traffic_) FindNeighbours(at, frame);
+    if (frame.traffic || !has_traffic_) {
+      if (graph_) FindNeighbours(at, frame);
+      encounters_.AddOthers(static_cast<double>(at) / drive_.rate_hz, frame.others);
+    }
     frames_.erase(frames_.begin());
   }
 }
@@ -114,10 +131,12 @@ void DriveBuilder::FindNeighbours(std::size_t k, const Frame& frame) {
 }
 
 Drive DriveBuilder::Finish() {
+  GrowColumns(drive_, next_);
   if (next_ > 0) ProcessThrough(next_ - 1);
   for (Neighbour* n : {&drive_.leader, &drive_.follower, &drive_.left_leader, &drive_.left_follower,
                        &drive_.right_leader, &drive_.right_follower})
     FillBetween(*n, frame_samples_);
+  drive_.encounters = encounters_.Finish();
   return std::move(drive_);
 }
 

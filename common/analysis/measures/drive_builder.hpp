@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/analysis/measures/drive.hpp"
+#include "common/analysis/measures/encounter_finder.hpp"
 #include "common/analysis/measures/sample_kinematics.hpp"
 
 namespace rodeira::measures {
@@ -38,6 +39,7 @@ class DriveBuilder {
     std::int64_t track = -1;
   };
   void GrowTo(std::size_t size);
+  void AddToPath(std::size_t k, bool breaks);
   void AddLane(std::size_t k, const SubjectSample& sample);
   void ProcessThrough(std::size_t k);
   void FindNeighbours(std::size_t k, const Frame& frame);
@@ -46,6 +48,7 @@ class DriveBuilder {
   std::optional<lanes::Graph> graph_;
   std::optional<LaneFinder> lanes_;
   std::optional<LeaderFinder> leaders_;
+  EncounterFinder encounters_;
   Drive drive_;
   network::Hint hint_;
   std::optional<LanePlace> last_place_;

@@ -236,7 +236,10 @@ void DriveChannels::TakeVehicle(std::size_t k, const Numbers& numbers, DriveBuil
   const std::vector<double>& v = values_;
   const AlongBody along = AlongBodyOf(v[kQw], v[kQx], v[kQy], v[kQz], v[kVx], v[kVy], v[kVz]);
   if (numbers.vehicle != vehicle_ || agent_) {
-    builder.AddOthers(k, {{-numbers.vehicle, v[kX], v[kY], v[kZ], along.speed_mps, v[kLength], v[kFront]}}, false);
+    builder.AddOthers(
+        k,
+        {{-numbers.vehicle, v[kX], v[kY], v[kZ], along.speed_mps, v[kLength], v[kFront], along.heading_rad, v[kWidth]}},
+        false);
     return;
   }
   builder.SetFootprint(v[kLength], v[kFront], v[kWidth]);
@@ -263,7 +266,7 @@ base::Status DriveChannels::TakeTraffic(std::size_t k, const Numbers& numbers, c
     }
     if (a[kAgentKind] == kPedestrian) return;
     others.push_back({static_cast<std::int64_t>(a[kAgentId]), a[kAgentX], a[kAgentY], a[kAgentZ], a[kAgentSpeed],
-                      a[kAgentLength], 0.5 * a[kAgentLength]});
+                      a[kAgentLength], 0.5 * a[kAgentLength], a[kAgentHeading], a[kAgentWidth]});
   });
   if (!whole)
     return base::WrongInput("message.damaged",

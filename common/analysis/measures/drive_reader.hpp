@@ -36,7 +36,7 @@ struct DriveReading {
 };
 
 // Reads a recording once and rebuilds the kinematics of one road user, at 100 Hz or at the vehicle's own rate if that
-// is lower. Memory grows with the duration and not with the number of agents. network: of the world that the recording
+// is lower. Memory grows with the duration, and with the agents near the path. network: of the world that the recording
 // embeds; null: there are no roads, and what needs them is missing. Wrong input where the recording has no such road
 // user, is no recording of Rodeira, or is damaged.
 base::Result<DriveReading> ReadDrive(const record::McapReader& reader, const network::Network* network,

@@ -34,34 +34,6 @@ Footprint Between(const Footprint& a, const Footprint& b, double share) {
   return f;
 }
 
-// Whether a footprint touches what the other vehicle sweeps: its samples, and where it moves by more than a tenth of
-// its length between two, poses between them.
-class SweptArea {
- public:
-  explicit SweptArea(std::span<const Footprint> path) {
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      poses_.push_back(path[i]);
-      if (i + 1 == path.size()) break;
-      const double step = (path[i + 1].middle_W - path[i].middle_W).norm();
-      const auto pieces = static_cast<int>(std::ceil(10.0 * step / std::max(path[i].length_m, 0.1)));
-      for (int k = 1; k < pieces; ++k) poses_.push_back(Between(path[i], path[i + 1], static_cast<double>(k) / pieces));
-    }
-  }
-  bool Touches(const Footprint& f) const {
-    return std::any_of(poses_.begin(), poses_.end(), [&](const Footprint& pose) { return Overlap(f, pose); });
-  }
-
- private:
-  std::vector<Footprint> poses_;
-};
-
-// The first and the last time, in samples, at which a path touches the area.
-struct Stay {
-  double enters = 0.0, leaves = 0.0;
-  std::size_t samples = 0;
-  bool ends = false;  // it leaves before the path's end
-};
-
 // The share of the step from sample i at which touching changes.
 double ChangeWithin(std::span<const Footprint> path, std::size_t i, const SweptArea& area) {
   const bool before = area.Touches(path[i]);
@@ -74,6 +46,22 @@ double ChangeWithin(std::span<const Footprint> path, std::size_t i, const SweptA
   return 0.5 * (low + high);
 }
 
+}  // namespace
+
+SweptArea::SweptArea(std::span<const Footprint> path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    poses_.push_back(path[i]);
+    if (i + 1 == path.size()) break;
+    const double step = (path[i + 1].middle_W - path[i].middle_W).norm();
+    const auto pieces = static_cast<int>(std::ceil(10.0 * step / std::max(path[i].length_m, 0.1)));
+    for (int k = 1; k < pieces; ++k) poses_.push_back(Between(path[i], path[i + 1], static_cast<double>(k) / pieces));
+  }
+}
+
+bool SweptArea::Touches(const Footprint& footprint) const {
+  return std::any_of(poses_.begin(), poses_.end(), [&](const Footprint& pose) { return Overlap(footprint, pose); });
+}
+
 std::optional<Stay> StayIn(std::span<const Footprint> path, const SweptArea& area) {
   std::optional<std::size_t> first;
   std::size_t last = 0, count = 0;
@@ -84,13 +72,11 @@ std::optional<Stay> StayIn(std::span<const Footprint> path, const SweptArea& are
     ++count;
   }
   if (!first) return std::nullopt;
-  Stay stay{static_cast<double>(*first), static_cast<double>(last), count, last + 1 < path.size()};
-  if (*first > 0) stay.enters = static_cast<double>(*first - 1) + ChangeWithin(path, *first - 1, area);
+  Stay stay{static_cast<double>(*first), static_cast<double>(last), count, *first > 0, last + 1 < path.size()};
+  if (stay.begins) stay.enters = static_cast<double>(*first - 1) + ChangeWithin(path, *first - 1, area);
   if (stay.ends) stay.leaves += ChangeWithin(path, last, area);
   return stay;
 }
-
-}  // namespace
 
 bool Overlap(const Footprint& a, const Footprint& b) {
   if ((b.middle_W - a.middle_W).norm() > ReachOf(a) + ReachOf(b)) return false;

@@ -18,6 +18,8 @@ struct OtherVehicle {
   double speed_mps = 0.0;
   double length_m = 0.0;
   double front_m = 0.0;  // from its reference point to its front
+  double heading_rad = kMissing;
+  double width_m = kMissing;
 };
 
 // The nearest vehicle ahead and behind along the lanes.

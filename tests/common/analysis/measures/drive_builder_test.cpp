@@ -185,6 +185,39 @@ TEST(DriveBuilder, HolesAndReverse) {
   EXPECT_NEAR(d.heading_error_rad[250], 0.0, 1e-9);
 }
 
+// A car crosses the road at right angles behind the driven one, by the closed form, and another one follows: the least
+// post-encroachment time is that of the crossing. On a plane it is the same.
+TEST(DriveBuilder, PostEncroachmentTimeOfACrossing) {
+  const auto network = OneRoad();
+  constexpr double kOther = 1.7;  // width
+  const auto others = [](double t) {
+    // The front is 170 m before the middle of the lane at time 0.
+    const OtherVehicle crosses{5,   300.0, -1.75 - 170.0 - 2.0 + 12.0 * t, 0.0,   12.0,
+                               4.0, 2.0,   std::numbers::pi / 2.0,         kOther};
+    const OtherVehicle follows{6, 60.0 + 20.0 * t, -1.75, 0.0, 20.0, 4.0, 2.0, 0.0, kOther};
+    return std::vector<OtherVehicle>{crosses, follows};
+  };
+  const double enters = (170.0 - kWidth / 2.0) / 12.0, leaves = (200.0 + kOther / 2.0 + kLength - kFront) / 20.0;
+  const auto least = [&](const network::Network* roads) {
+    DriveBuilder builder(roads, kRate);
+    builder.SetFootprint(kLength, kFront, kWidth);
+    builder.ExpectTraffic();
+    for (std::size_t k = 0; k < 3500; ++k) {
+      const double t = static_cast<double>(k) / kRate;
+      builder.AddSubject(k, {100.0 + 20.0 * t, -1.75, 0.0, 0.0, 20.0});
+      builder.AddOthers(k, others(t), true);
+    }
+    const Drive d = builder.Finish();
+    const MeasureInfo* info = FindMeasure("pet_min_s").value();
+    return info->compute({d, 0, d.size(), std::nullopt}, {info->options, {}});
+  };
+  for (const Measure& pet : {least(network.get()), least(nullptr)}) {
+    ASSERT_TRUE(pet.value) << pet.reason;
+    EXPECT_NEAR(*pet.value, enters - leaves, 1e-6);
+    EXPECT_EQ(pet.n, 1u);
+  }
+}
+
 TEST(DriveBuilder, WithoutRoadsLanesAreMissing) {
   DriveBuilder builder(nullptr, kRate);
   builder.SetFootprint(kLength, kFront, kWidth);
