@@ -62,6 +62,11 @@ class Exporter {
     const auto times = TimesOf(selection_);
     if (!times) return times.error();
     if (auto status = workplace_.Begin(); !status) return status.error();
+    if (form_ == Form::kMat) {
+      auto spill = SpillFile::Create(workplace_.path());
+      if (!spill) return spill.error();
+      spill_.emplace(std::move(spill).value());
+    }
     report_.losses = reader_.condition().findings;
     for (const auto& [id, channel] : reader_.channels()) {
       if (auto status = Open(channel); !status) return status.error();
@@ -99,7 +104,7 @@ class Exporter {
     if (!file) return file.error();
     for (const auto& table : tables_) {
       const auto& writer = dynamic_cast<const MatTable&>(*table->writer);
-      if (auto status = file.value().Add(writer.table()); !status) return status;
+      if (auto status = writer.AddTo(file.value()); !status) return status;
       report_.tables.push_back({table->topic, table->file, writer.messages(), writer.rows(), writer.written_bytes()});
     }
     for (const PlainTable& table : more) {
@@ -111,9 +116,10 @@ class Exporter {
     return workplace_.Finish(kMatName);
   }
 
-  base::Result<std::unique_ptr<TableWriter>> MakeWriter(const Table& table, Layout layout) const {
+  base::Result<std::unique_ptr<TableWriter>> MakeWriter(const Table& table, Layout layout) {
     if (form_ == Form::kMat)
-      return std::unique_ptr<TableWriter>(std::make_unique<MatTable>(*table.type, std::move(layout), table.file));
+      return std::unique_ptr<TableWriter>(
+          std::make_unique<MatTable>(*table.type, std::move(layout), table.file, *spill_));
     auto file = CsvFile::Create(workplace_.path() / table.file);
     if (!file) return file.error();
     if (form_ == Form::kLong)
@@ -234,6 +240,7 @@ class Exporter {
   const Selection& selection_;
   Workplace workplace_;
   ExportReport report_;
+  std::optional<SpillFile> spill_;  // of a .mat file
   std::set<std::string> names_;
   std::set<std::string> topics_;   // of the recording, by today's names
   std::set<std::string> columns_;  // of the chosen topics

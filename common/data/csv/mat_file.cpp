@@ -122,6 +122,28 @@ base::Status AppendColumn(const PlainColumn& column, CsvFile& file) {
   return AppendNumbers(file, kDouble, reinterpret_cast<const char*>(numbers.data()), kMatBytesPerNumber * rows);
 }
 
+std::uint64_t SpilledBytes(const SpilledColumn& column) {
+  if (column.one_text() != nullptr) return TextBytes(*column.one_text());
+  return HeadBytes("") + (column.kind() == SpilledColumn::Kind::kTexts ? 0 : kTagBytes) + column.bytes();
+}
+
+base::Status AppendSpilled(const SpilledColumn& column, const SpillFile& spill, CsvFile& file) {
+  std::string& out = file.buffer();
+  if (column.one_text() != nullptr) {
+    AppendText(out, *column.one_text());
+    return file.Drain();
+  }
+  const bool texts = column.kind() == SpilledColumn::Kind::kTexts;
+  const bool whole = column.kind() == SpilledColumn::Kind::kWhole;
+  AppendTag(out, kMatrix, SpilledBytes(column));
+  AppendHead(out, texts ? kCellClass : whole ? kUint64Class : kDoubleClass, column.rows(), 1, "");
+  if (!texts) AppendTag(out, whole ? kUint64 : kDouble, column.bytes());
+  return column.EachPart(spill, [&](std::string_view part) {
+    out += part;
+    return file.Drain();
+  });
+}
+
 }  // namespace
 
 std::string MatName(std::string_view name, std::set<std::string>& taken) {
@@ -166,26 +188,43 @@ base::Result<MatFile> MatFile::Create(const std::filesystem::path& path) {
   return mat;
 }
 
+void AppendMatText(std::string& out, std::string_view text) { AppendText(out, text); }
+
 base::Status MatFile::Add(const PlainTable& table) {
-  const std::string variable = MatName(table.name, names_);
+  std::vector<Field> fields;
+  for (const PlainColumn& column : table.columns)
+    fields.push_back({column.name, ColumnBytes(column), [&column, this] { return AppendColumn(column, file_); }});
+  return AddStructure(table.name, fields);
+}
+
+base::Status MatFile::Add(const std::string& name, std::span<const SpilledColumn> columns, const SpillFile& spill) {
+  std::vector<Field> fields;
+  for (const SpilledColumn& column : columns)
+    fields.push_back(
+        {column.name(), SpilledBytes(column), [&column, &spill, this] { return AppendSpilled(column, spill, file_); }});
+  return AddStructure(name, fields);
+}
+
+base::Status MatFile::AddStructure(const std::string& table, std::span<const Field> fields) {
+  const std::string variable = MatName(table, names_);
   std::set<std::string> taken;
-  std::string fields;
-  std::uint64_t bytes = HeadBytes(variable) + kTagBytes + kTagBytes + kNameBytes * table.columns.size();
-  for (const PlainColumn& column : table.columns) {
-    std::string field = MatName(column.name, taken);
-    field.resize(kNameBytes, '\0');
-    fields += field;
-    bytes += kTagBytes + ColumnBytes(column);
+  std::string names;
+  std::uint64_t bytes = HeadBytes(variable) + kTagBytes + kTagBytes + kNameBytes * fields.size();
+  for (const Field& field : fields) {
+    std::string name = MatName(field.name, taken);
+    name.resize(kNameBytes, '\0');
+    names += name;
+    bytes += kTagBytes + field.bytes;
   }
-  if (bytes > kMaxMatBytes) return TooLargeForMat(table.name);
+  if (bytes > kMaxMatBytes) return TooLargeForMat(table);
   std::string& out = file_.buffer();
   AppendTag(out, kMatrix, bytes);
   AppendHead(out, kStructClass, 1, 1, variable);
   AppendUint32(out, kInt32 | (std::uint64_t{4} << 16));  // a small element: its value lies in the tag
   AppendUint32(out, kNameBytes);
-  AppendData(out, kInt8, fields);
-  for (const PlainColumn& column : table.columns) {
-    if (auto status = AppendColumn(column, file_); !status) return status;
+  AppendData(out, kInt8, names);
+  for (const Field& field : fields) {
+    if (auto status = field.write(); !status) return status;
   }
   return file_.Drain();
 }

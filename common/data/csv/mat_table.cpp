@@ -4,24 +4,28 @@
 #include <type_traits>
 #include <utility>
 
-#include "common/data/csv/mat_file.hpp"
-
 namespace rodeira::csv {
 
-MatTable::MatTable(const decode::Type& type, Layout layout, std::string name) : TableWriter(type, std::move(layout)) {
-  table_.name = std::move(name);
-  table_.columns.push_back({"time_s", {}});
-  if (this->layout().has_header) table_.columns.push_back({"step", {}});
-  table_.columns.push_back({"source", TextColumn{}});
-  values_ = table_.columns.size();
+MatTable::MatTable(const decode::Type& type, Layout layout, std::string name, SpillFile& spill)
+    : TableWriter(type, std::move(layout)), name_(std::move(name)), spill_(spill) {
+  columns_.emplace_back("time_s", SpilledColumn::Kind::kNumbers);
+  if (this->layout().has_header) columns_.emplace_back("step", SpilledColumn::Kind::kNumbers);
+  columns_.emplace_back("source", SpilledColumn::Kind::kTexts);
+  values_ = columns_.size();
   for (const Slot& slot : this->layout().slots) {
-    if (IsWritten(slot)) table_.columns.push_back({slot.name.empty() ? "value" : slot.name, {}});
+    if (IsWritten(slot)) columns_.emplace_back(slot.name.empty() ? "value" : slot.name, SpilledColumn::Kind::kNumbers);
   }
   if (this->layout().has_header && this->layout().writes_digest)
-    table_.columns.push_back({"state_digest", std::vector<std::uint64_t>()});
+    columns_.emplace_back("state_digest", SpilledColumn::Kind::kWhole);
 }
 
-std::uint64_t MatTable::written_bytes() const { return kMatBytesPerNumber * table_.rows() * table_.columns.size(); }
+std::uint64_t MatTable::written_bytes() const { return kMatBytesPerNumber * columns_.front().rows() * columns_.size(); }
+
+std::size_t MatTable::bytes_in_memory() const {
+  std::size_t bytes = 0;
+  for (const SpilledColumn& column : columns_) bytes += column.bytes_in_memory();
+  return bytes;
+}
 
 void MatTable::StartMessage() {
   before_.clear();
@@ -50,33 +54,41 @@ void MatTable::PutValue(Part part, const Slot&, const decode::Value& value) {
 
 void MatTable::PutList(Part part, const Slot&, const std::string& list) { CellsOf(part).emplace_back(list); }
 
-void MatTable::AddCells(const std::vector<Cell>& cells, std::size_t& column) {
+base::Status MatTable::AddCells(const std::vector<Cell>& cells, std::size_t& column) {
   for (const Cell& cell : cells) {
-    auto& values = table_.columns[column++].values;
-    if (const auto* number = std::get_if<double>(&cell)) {
-      std::get<std::vector<double>>(values).push_back(*number);
-      continue;
-    }
-    if (!std::holds_alternative<TextColumn>(values)) values = TextColumn{};  // at the first row
-    std::get<TextColumn>(values).Add(std::get<std::string>(cell));
+    SpilledColumn& values = columns_[column++];
+    const auto* number = std::get_if<double>(&cell);
+    if (number == nullptr && values.rows() == 0) values.BecomeTexts();
+    auto status = number != nullptr ? values.Add(*number, spill_)
+                                    : values.Add(std::string_view(std::get<std::string>(cell)), spill_);
+    if (!status) return status;
   }
+  return {};
+}
+
+base::Status MatTable::AddRow(std::string_view source, const std::vector<Cell>* row) {
+  if (auto status = columns_[0].Add(static_cast<double>(time_ns()) / 1e9, spill_); !status) return status;
+  if (layout().has_header) {
+    if (auto status = columns_[1].Add(static_cast<double>(step()), spill_); !status) return status;
+  }
+  if (auto status = columns_[values_ - 1].Add(source, spill_); !status) return status;
+  std::size_t column = values_;
+  if (auto status = AddCells(before_, column); !status) return status;
+  if (row != nullptr) {
+    if (auto status = AddCells(*row, column); !status) return status;
+  }
+  if (auto status = AddCells(after_, column); !status) return status;
+  if (!layout().has_header || !layout().writes_digest) return {};
+  return columns_[column].Add(digest(), spill_);
 }
 
 base::Result<std::uint64_t> MatTable::EndMessage(std::string_view source) {
-  const std::size_t rows = layout().rows.empty() ? 1 : row_cells_.size();
+  const bool has_rows = !layout().rows.empty();
+  const std::size_t rows = has_rows ? row_cells_.size() : 1;
   for (std::size_t row = 0; row < rows; ++row) {
-    std::get<std::vector<double>>(table_.columns[0].values).push_back(static_cast<double>(time_ns()) / 1e9);
-    if (layout().has_header)
-      std::get<std::vector<double>>(table_.columns[1].values).push_back(static_cast<double>(step()));
-    std::get<TextColumn>(table_.columns[values_ - 1].values).Add(source);
-    std::size_t column = values_;
-    AddCells(before_, column);
-    if (!layout().rows.empty()) AddCells(row_cells_[row], column);
-    AddCells(after_, column);
-    if (layout().has_header && layout().writes_digest)
-      std::get<std::vector<std::uint64_t>>(table_.columns[column].values).push_back(digest());
+    if (auto status = AddRow(source, has_rows ? &row_cells_[row] : nullptr); !status) return status.error();
   }
-  if (written_bytes() > kMaxMatBytes) return TooLargeForMat(table_.name);
+  if (written_bytes() > kMaxMatBytes) return TooLargeForMat(name_);
   return rows;
 }
 

@@ -112,6 +112,68 @@ TEST_F(MatTest, AVariableAboveTwoGigabytesIsRefused) {
   EXPECT_EQ(status.error().exit_status(), 2);
 }
 
+// Columns that lie in the spill file are written as the table in memory is, byte by byte: numbers, whole numbers, one
+// text for all rows, different texts, and no rows at all.
+TEST_F(MatTest, SpilledColumnsAreTheSameBytes) {
+  using Kind = SpilledColumn::Kind;
+  for (const std::uint64_t rows : {0, 1, 2, 30'000}) {
+    auto spill = SpillFile::Create(folder_);
+    ASSERT_TRUE(spill.ok());
+    EXPECT_TRUE(fs::is_empty(folder_)) << "it has no name";
+    std::vector<SpilledColumn> columns;
+    columns.emplace_back("time_s", Kind::kNumbers);
+    columns.emplace_back("source", Kind::kTexts);
+    columns.emplace_back("word", Kind::kTexts);
+    columns.emplace_back("late", Kind::kTexts);
+    columns.emplace_back("state_digest", Kind::kWhole);
+    std::vector<double> time;
+    std::vector<std::uint64_t> digest;
+    TextColumn source, word, late;
+    for (std::uint64_t row = 0; row < rows; ++row) {
+      time.push_back(0.001 * static_cast<double>(row));
+      digest.push_back(row * 0x9e3779b97f4a7c15);
+      source.Add("ego");
+      word.Add(std::string(row % 13, 'a'));
+      late.Add(row < 20'000 ? "first" : "second");
+      ASSERT_TRUE(columns[0].Add(time.back(), spill.value()).ok());
+      ASSERT_TRUE(columns[1].Add(source[row], spill.value()).ok());
+      ASSERT_TRUE(columns[2].Add(word[row], spill.value()).ok());
+      ASSERT_TRUE(columns[3].Add(late[row], spill.value()).ok());
+      ASSERT_TRUE(columns[4].Add(digest.back(), spill.value()).ok());
+    }
+    const PlainTable whole{
+        "t", {{"time_s", time}, {"source", source}, {"word", word}, {"late", late}, {"state_digest", digest}}};
+    auto plain = MatFile::Create(Out("plain.mat")), spilled = MatFile::Create(Out("spilled.mat"));
+    ASSERT_TRUE(plain.ok() && spilled.ok());
+    ASSERT_TRUE(plain.value().Add(whole).ok());
+    ASSERT_TRUE(spilled.value().Add("t", columns, spill.value()).ok());
+    ASSERT_TRUE(plain.value().Close().ok() && spilled.value().Close().ok());
+    EXPECT_EQ(base::ReadText(Out("plain.mat")).value(), base::ReadText(Out("spilled.mat")).value()) << rows;
+    fs::remove(Out("plain.mat"));
+    fs::remove(Out("spilled.mat"));
+  }
+}
+
+// A column's memory does not grow with its rows: 4 MB of numbers, 20 MB of texts.
+TEST_F(MatTest, MemoryIsBoundedByAPartOfAColumn) {
+  using Kind = SpilledColumn::Kind;
+  auto spill = SpillFile::Create(folder_);
+  ASSERT_TRUE(spill.ok());
+  SpilledColumn numbers("x", Kind::kNumbers), words("word", Kind::kTexts);
+  std::size_t most = 0;
+  for (int row = 0; row < 500'000; ++row) {
+    ASSERT_TRUE(numbers.Add(0.5 * row, spill.value()).ok());
+    if (row % 10 == 0) {
+      ASSERT_TRUE(words.Add(std::string(300, row % 20 == 0 ? 'a' : 'b'), spill.value()).ok());
+    }
+    most = std::max({most, numbers.bytes_in_memory(), words.bytes_in_memory()});
+  }
+  EXPECT_EQ(numbers.bytes(), 4'000'000u);
+  EXPECT_GT(words.bytes(), 15'000'000u);
+  // The part, what its buffer has room for beyond it, and the list of the pieces.
+  EXPECT_LT(most, 2 * SpilledColumn::kPartBytes + 100'000);
+}
+
 TEST_F(MatTest, RowsOfASequenceBecomeColumns) {
   const auto reader = Recording();
   const PlainTable marks{"marks", {{"time_s", std::vector<double>{2.0}}, {"name", TextColumn{{"x"}, {0}, {{"x", 0}}}}}};
