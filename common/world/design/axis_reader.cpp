@@ -10,21 +10,24 @@
 #include "common/core/geometry/plane.hpp"
 #include "common/world/design/element_name.hpp"
 #include "common/world/design/points.hpp"
+#include "common/world/design/road_schema.hpp"
 
 namespace rodeira::design {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 using config::Range;
 using geometry::PlanElement;
 
 constexpr double kSmallestRadius_m = 5.0;
 constexpr Range kLength_m = {0.01, 100'000.0};
-constexpr Range kCoordinate_m = {-1e8, 1e8};
 constexpr double kGap_m = 0.05;
 
-double ReadCurvature(const Map& map, std::string_view key) {
+double ReadCurvature(const DeclaredMap& keys, std::string_view key) {
+  const Map& map = keys.MapWith(key);
   const double radius = map.Number(key);
+  if (!map.Has(key)) return 1.0 / 1e7;  // a problem already
   if (std::fabs(radius) >= kSmallestRadius_m && std::fabs(radius) <= 1e7) return 1.0 / radius;
   map.Problem(key, "config.out_of_range",
               fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
@@ -33,14 +36,15 @@ double ReadCurvature(const Map& map, std::string_view key) {
 }
 
 // s rho = A^2: the length over which the curvature changes as it does.
-double ReadClothoidLength(const Map& map, double change_1pm) {
+double ReadClothoidLength(const DeclaredMap& keys, double change_1pm) {
+  const Map& map = keys.map();
   if (map.Has("a_m") == map.Has("length_m")) {
     map.Problem(map.Has("a_m") ? "a_m" : "", "config.conflicting_keys",
                 "a clothoid has either a 'length_m' or a parameter 'a_m'");
     if (!map.Has("a_m")) return 1.0;
   }
-  if (!map.Has("a_m")) return map.Number("length_m", kLength_m);
-  const double a = map.Number("a_m", {0.1, 1e5});
+  if (!map.Has("a_m")) return keys.RequiredNumber("length_m");
+  const double a = keys.RequiredNumber("a_m");
   const double length = a * a * std::fabs(change_1pm);
   if (length >= kLength_m.low && length <= kLength_m.high) return length;
   map.Problem("a_m", fmt::format("'a_m' {} makes the clothoid {:.4g} m long; {} m to {} m was expected", a, length,
@@ -55,12 +59,13 @@ PlanElement ReadElement(const Map& item) {
   if (name.kind.empty()) {
     element.length_m = kLength_m.high;  // so that nothing that stands along it seems to stand behind the road's end
   } else if (name.kind == "line") {
-    element.length_m = item.Child(name.key).Number("length_m", kLength_m);
+    element.length_m = DeclaredMap(item.Child(name.key), ElementKeys("line")).Number("length_m");
   } else if (name.kind == "arc") {
-    const Map arc = item.Child(name.key);
-    element.curvature_start_1pm = element.curvature_end_1pm = ReadCurvature(arc, "radius_m");
+    const DeclaredMap keys(item.Child(name.key), ElementKeys("arc"));
+    const Map& arc = keys.map();
+    element.curvature_start_1pm = element.curvature_end_1pm = ReadCurvature(keys, "radius_m");
     if (arc.Has("turn_deg")) {
-      const double turn = arc.Number("turn_deg", {0.001, 3600.0}) * geometry::kPi / 180.0;
+      const double turn = keys.RequiredNumber("turn_deg") * geometry::kPi / 180.0;
       if (arc.Has("length_m"))
         arc.Problem("turn_deg", "config.conflicting_keys", "an arc has either a 'length_m' or an angle 'turn_deg'");
       element.length_m = turn / std::fabs(element.curvature_start_1pm);
@@ -70,17 +75,18 @@ PlanElement ReadElement(const Map& item) {
             fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m, kLength_m.high));
       element.length_m = std::min(element.length_m, kLength_m.high);
     } else {
-      element.length_m = arc.Number("length_m", kLength_m);
+      element.length_m = keys.RequiredNumber("length_m");
     }
   } else {
-    const Map clothoid = item.Child(name.key);
-    if (clothoid.Has("radius_start_m")) element.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
-    if (clothoid.Has("radius_end_m")) element.curvature_end_1pm = ReadCurvature(clothoid, "radius_end_m");
+    const DeclaredMap keys(item.Child(name.key), ElementKeys("clothoid"));
+    const Map& clothoid = keys.map();
+    if (clothoid.Has("radius_start_m")) element.curvature_start_1pm = ReadCurvature(keys, "radius_start_m");
+    if (clothoid.Has("radius_end_m")) element.curvature_end_1pm = ReadCurvature(keys, "radius_end_m");
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
       clothoid.Problem("", "config.missing_key",
                        "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
-    element.length_m = ReadClothoidLength(clothoid, element.curvature_end_1pm - element.curvature_start_1pm);
+    element.length_m = ReadClothoidLength(keys, element.curvature_end_1pm - element.curvature_start_1pm);
   }
   return element;
 }
@@ -88,9 +94,9 @@ PlanElement ReadElement(const Map& item) {
 // Where an element that has coordinates of its own stands; gaps to the one before are closed or refused.
 void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, const terrain::GroundMove& move,
                PlanElement& element, AxisReading& axis) {
-  const Map from = item.Child("from");
-  Eigen::Vector2d p(from.Number("x_m", kCoordinate_m), from.Number("y_m", kCoordinate_m));
-  double heading = geometry::WrapAngle(from.Number("heading_deg", {-360.0, 360.0}) * geometry::kPi / 180.0);
+  const DeclaredMap from(item.Child("from"), ElementKeys("from"));
+  Eigen::Vector2d p(from.Number("x_m"), from.Number("y_m"));
+  double heading = geometry::WrapAngle(from.Number("heading_deg") * geometry::kPi / 180.0);
   if (move) move(p, heading);
   const double gap = (p - before.p_W).norm(), kink = std::fabs(geometry::WrapAngle(heading - before.heading_rad));
   element.start_W = p;
@@ -137,20 +143,21 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, const terra
 
 }  // namespace
 
-AxisReading ReadAxis(const Map& road, const terrain::GroundMove& move) {
+AxisReading ReadAxis(const DeclaredMap& declared, const terrain::GroundMove& move) {
+  const Map& road = declared.map();
   AxisReading axis;
   if (road.Has("points") && road.Has("axis"))
     road.Problem("points", "config.conflicting_keys", "a road has either an 'axis' of elements or 'points'");
   if (road.Has("points")) {
-    ReadPoints(road.Child("points"), move, axis);
+    ReadPoints(declared.Child("points"), move, axis);
     return axis;
   }
-  const Map start = road.OptionalChild("start");
+  const DeclaredMap start = declared.Child("start");
   geometry::PlanPoint at;
-  at.p_W = {start.Number("x_m", kCoordinate_m, 0.0), start.Number("y_m", kCoordinate_m, 0.0)};
-  at.heading_rad = geometry::WrapAngle(start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0);
-  if (move && start.Has("x_m")) move(at.p_W, at.heading_rad);
-  ReadElements(road, at, move, axis);
+  at.p_W = {start.Number("x_m"), start.Number("y_m")};
+  at.heading_rad = geometry::WrapAngle(start.Number("heading_deg") * geometry::kPi / 180.0);
+  if (move && start.map().Has("x_m")) move(at.p_W, at.heading_rad);
+  ReadElements(declared.MapWith("axis"), at, move, axis);
   return axis;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/geometry/cubic.hpp"
 #include "common/core/geometry/plan_axis.hpp"
 #include "common/world/terrain/ground_move.hpp"
@@ -25,7 +25,7 @@ struct AxisReading {
 
 // Reads 'start', and 'axis' or 'points'. What is wrong is a problem of the map's file; then there may be no elements.
 // `move`: what becomes of places of the elevation file's map.
-AxisReading ReadAxis(const config::Map& road, const terrain::GroundMove& move = {});
+AxisReading ReadAxis(const config::DeclaredMap& road, const terrain::GroundMove& move = {});
 
 // The chain moved and turned as a whole, so that its point at `own_s_m` comes to `to_W` with the heading given.
 void Place(std::vector<geometry::PlanElement>& elements, double own_s_m, const Eigen::Vector2d& to_W,

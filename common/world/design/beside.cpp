@@ -15,15 +15,15 @@ using IndexRange = std::pair<std::size_t, std::size_t>;
 
 }  // namespace
 
-Beside::Beside(const config::Map& item, const network::RoadSpec& spec, double usual_m, bool right_side) {
-  if (item.Has("t_m")) {
-    (void)config::RejectConflictingKeys(item, "t_m", "side"),
-        (void)config::RejectConflictingKeys(item, "t_m", "beside_m");
-    along_ = Constant(item.Number("t_m", {-1000.0, 1000.0}));
+Beside::Beside(const config::DeclaredMap& item, const network::RoadSpec& spec, double usual_m, bool right_side) {
+  if (item.map().Has("t_m")) {
+    (void)config::RejectConflictingKeys(item.map(), "t_m", "side"),
+        (void)config::RejectConflictingKeys(item.map(), "t_m", "beside_m");
+    along_ = Constant(item.RequiredNumber("t_m"));
     return;
   }
-  const bool right = item.Choice("side", {"left", "right"}, right_side ? "right" : "left") == "right";
-  const double beside = item.Number("beside_m", {-100.0, 1000.0}, usual_m);
+  const bool right = item.Word("side", right_side ? "right" : "left") == "right";
+  const double beside = item.Number("beside_m", usual_m);
   const auto& section = spec.sections[0];
   along_ = EdgeOf(spec, right ? -static_cast<int>(section.right.size()) : static_cast<int>(section.left.size()));
   beside_m_ = right ? -beside : beside;

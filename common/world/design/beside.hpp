@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/geometry/cubic.hpp"
 #include "common/world/network/road.hpp"
 
@@ -14,7 +14,7 @@ namespace rodeira::design {
 // Across a road: a t of its own ('t_m'), or beyond the outermost edge on a side ('side', 'beside_m').
 class Beside {
  public:
-  Beside(const config::Map& item, const network::RoadSpec& spec, double usual_m, bool right_side);
+  Beside(const config::DeclaredMap& item, const network::RoadSpec& spec, double usual_m, bool right_side);
 
   double At(double s_m) const { return along_.Value(s_m) + beside_m_; }
   // Where the edge's course changes.

@@ -49,11 +49,11 @@ const std::vector<Surface> kSurfaces = {Surface::kAsphalt, Surface::kConcrete, S
 
 }  // namespace
 
-const Material& Context::MaterialOf(const config::Map& map, std::string_view key,
+const Material& Context::MaterialOf(const config::DeclaredMap& map, std::string_view key,
                                     std::string_view default_value) const {
   std::vector<std::string> names;
   for (const auto& [name, material] : materials) names.push_back(name);
-  const auto found = materials.find(map.Choice(key, names, default_value));
+  const auto found = materials.find(map.MapWith(key).Choice(key, names, default_value));
   return found == materials.end() ? materials.find("asphalt")->second : found->second;
 }
 
@@ -65,16 +65,16 @@ std::map<std::string, Material> UsualMaterials(const std::array<double, 7>& fric
   return materials;
 }
 
-void ReadMaterials(const config::Map& map, Context& context) {
-  for (const std::string& name : map.Keys()) {
-    const config::Map item = map.Child(name);
-    Material material = context.MaterialOf(item, "surface", "asphalt");
-    material.friction = item.Number("friction", {0.01, 2.0}, material.friction);
-    if (const auto texture = item.OptionalPath("texture")) {
+void ReadMaterials(const config::DeclaredMap& file, Context& context) {
+  for (const auto& [name, keys] : file.Named("materials")) {
+    const config::Map& item = keys.map();
+    Material material = context.MaterialOf(keys, "surface", "asphalt");
+    material.friction = keys.Number("friction", material.friction);
+    if (const auto texture = keys.MapWith("texture").OptionalPath("texture")) {
       const auto facts = terrain::LookAtPicture(*texture);
       if (!facts) context.missing.push_back(facts.error().WithContext(item.Place("texture")));
       material.texture = std::filesystem::absolute(*texture).string();
-      material.texture_width_m = item.Number("texture_m", {0.01, 10'000.0}, 4.0);
+      material.texture_width_m = keys.Number("texture_m");
       material.texture_height_m = facts ? material.texture_width_m * facts.value().height_px / facts.value().width_px
                                         : material.texture_width_m;
     } else if (item.Has("texture_m")) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/ground/ground.hpp"
 #include "common/world/terrain/ground_move.hpp"
 
@@ -31,13 +31,14 @@ struct Context {
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
 
-  const Material& MaterialOf(const config::Map& map, std::string_view key, std::string_view default_value) const;
+  const Material& MaterialOf(const config::DeclaredMap& map, std::string_view key,
+                             std::string_view default_value) const;
 };
 
 // The materials that are the surfaces themselves, with their friction.
 std::map<std::string, Material> UsualMaterials(const std::array<double, 7>& friction);
-// Reads 'materials': {name: {surface, friction, texture, texture_m}}.
-void ReadMaterials(const config::Map& map, Context& context);
+// Reads 'materials', of the keys MaterialKeys each.
+void ReadMaterials(const config::DeclaredMap& file, Context& context);
 // The cross-sections that the program knows: rural, bypass, motorway.
 config::Map UsualTemplates();
 

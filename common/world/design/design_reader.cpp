@@ -11,6 +11,7 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/world/design/design_schema.hpp"
 #include "common/world/design/join_check.hpp"
 #include "common/world/design/junction_builder.hpp"
 #include "common/world/design/standing_reader.hpp"
@@ -18,6 +19,7 @@
 namespace rodeira::design {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 using network::End;
 
@@ -53,9 +55,10 @@ class Files {
 
  private:
   void Include(const Map root) {
-    const config::List list = root.OptionalItems("include");
+    const config::DeclaredList declared = DeclaredMap(root, DesignKeys()).Items("include");
+    const config::List& list = declared.list();
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const std::filesystem::path named = list.Text(i);
+      const std::filesystem::path named = declared.Text(i);
       const std::string place = list.Place(i);
       const std::filesystem::path folder = std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
       const std::filesystem::path path = named.is_absolute() ? named : folder / named;
@@ -71,7 +74,7 @@ class Files {
       }
       files_.push_back(std::move(file).value());
       roots_.push_back(files_.back().root());
-      const std::string version = roots_.back().Text("rodeira");
+      const std::string version = DeclaredMap(roots_.back(), IncludeSchema().keys).MapWith("rodeira").Text("rodeira");
       if (version != "world/2" && roots_.back().Has("rodeira"))
         roots_.back().Problem("rodeira", "config.other_version",
                               fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
@@ -90,13 +93,13 @@ struct Link {
   Map map;
 };
 
-void ReadLinks(const Map& road, std::size_t index, std::vector<Link>& links) {
+void ReadLinks(const DeclaredMap& road, std::size_t index, std::vector<Link>& links) {
   for (const char* key : {"predecessor", "successor"}) {
-    if (!road.Has(key)) continue;
-    const Map map = road.Child(key);
-    const std::string other = map.Text("road");
-    const bool start = map.Choice("end", {"start", "end"}, *key == 's' ? "start" : "end") == "start";
-    links.push_back({index, *key == 's' ? End::kEnd : End::kStart, start ? End::kStart : End::kEnd, other, map});
+    if (!road.map().Has(key)) continue;
+    const DeclaredMap link = road.Child(key);
+    const std::string other = link.Text("road");
+    const bool start = link.Word("end") == "start";
+    links.push_back({index, *key == 's' ? End::kEnd : End::kStart, start ? End::kStart : End::kEnd, other, link.map()});
   }
 }
 
@@ -306,24 +309,25 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   context.materials = UsualMaterials(friction);
   const Map usual = UsualTemplates();
   for (const std::string& known : usual.Keys()) context.templates.emplace(known, usual);
-  context.left_hand = file.root().Choice("rule", {"right", "left"}, "right") == "left";
+  context.left_hand = DeclaredMap(file.root(), DesignKeys()).Word("rule") == "left";
   for (const Map& root : files.roots()) {
-    if (root.Has("materials")) ReadMaterials(root.Child("materials"), context);
-    if (!root.Has("templates")) continue;
-    const Map templates = root.Child("templates");
+    const DeclaredMap keys(root, DesignKeys());
+    ReadMaterials(keys, context);
+    const Map templates = keys.MapWith("templates").OptionalChild("templates");
     for (const std::string& own : templates.Keys()) context.templates.insert_or_assign(own, templates);
   }
   std::vector<RoadDesign> designs;
   std::vector<Link> links;
   for (const Map& root : files.roots()) {
-    const config::List roads = root.OptionalItems("roads");
+    const DeclaredMap keys(root, DesignKeys());
+    const config::DeclaredList roads = keys.Items("roads");
     for (std::size_t i = 0; i < roads.size(); ++i) {
-      const Map item = roads.At(i);
+      const DeclaredMap item = roads.At(i);
       ReadLinks(item, designs.size(), links);
       designs.push_back(ReadRoad(item, context, designs));
     }
     root.IgnoreKey("junctions");
-    ReadStanding(root, terrain_is_at, move, design.standing);
+    ReadStanding(keys, terrain_is_at, move, design.standing);
   }
   const auto sound = [&] {
     design.problems = files.Problems();
@@ -331,8 +335,8 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   };
   design.warnings = context.warnings;
   design.missing = context.missing;
-  if (!sound()) {  // what can be told of the junctions without the roads
-    for (const Map& root : files.roots()) (void)ReadJunctions(root, designs, {});
+  if (designs.empty() || !sound()) {  // what can be told of the junctions without the roads
+    for (const Map& root : files.roots()) (void)ReadJunctions(DeclaredMap(root, DesignKeys()), designs, {});
     design.problems = files.Problems();
   }
   if (designs.empty() || !sound()) return design;
@@ -347,7 +351,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   if (!sound()) return design;
   std::vector<JunctionSpec> junctions;
   for (const Map& root : files.roots()) {
-    auto more = ReadJunctions(root, designs, roads);
+    auto more = ReadJunctions(DeclaredMap(root, DesignKeys()), designs, roads);
     std::move(more.begin(), more.end(), std::back_inserter(junctions));
   }
   if (!sound()) return design;

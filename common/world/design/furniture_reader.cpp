@@ -12,12 +12,14 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/world/design/beside.hpp"
 #include "common/world/design/object_reader.hpp"
+#include "common/world/design/station.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
-using config::List;
+using config::DeclaredList;
+using config::DeclaredMap;
 using config::Map;
 
 constexpr double kNearest_m = 0.1;  // of what is repeated
@@ -28,18 +30,19 @@ struct Stand {
   bool repeated;
 };
 
-Stand ReadStand(const Map& item, double length_m) {
+Stand ReadStand(const DeclaredMap& keys, double length_m) {
+  const Map& item = keys.map();
   Stand stand{0.0, 0.0, 0.0, 0.0, item.Has("every_m")};
   if (!stand.repeated) {
-    stand.s_m = item.Number("s_m", {0.0, length_m});
+    stand.s_m = Station(keys, "s_m", length_m);
     return stand;
   }
   if (item.Has("s_m"))
     item.Problem("s_m", "config.conflicting_keys",
                  "what is repeated has 'from_s_m', 'every_m' and 'to_s_m' instead of 's_m'");
-  stand.every_m = item.Number("every_m", {kNearest_m, 1e6});
-  stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
-  stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
+  stand.every_m = keys.RequiredNumber("every_m");
+  stand.from_s_m = stand.s_m = Station(keys, "from_s_m", length_m, 0.0);
+  stand.to_s_m = Station(keys, "to_s_m", length_m, length_m);
   if (stand.to_s_m < stand.from_s_m)
     item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must not lie before 'from_s_m'");
   return stand;
@@ -74,15 +77,14 @@ void WarnOnLanes(const Map& item, const std::string& what, const network::RoadSp
   }
 }
 
-double ReadRotation(const Map& item) {
-  return item.Number("rotation_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0;
-}
+double ReadRotation(const DeclaredMap& item) { return item.Number("rotation_deg") * geometry::kPi / 180.0; }
 
-void ReadSign(const Map& item, const Context& context, double length_m, network::RoadSpec& spec,
+void ReadSign(const DeclaredMap& keys, const Context& context, double length_m, network::RoadSpec& spec,
               std::vector<std::string>& warnings) {
+  const Map& item = keys.map();
   std::vector<std::string> names;
   for (const SignKind& kind : SignKinds()) names.emplace_back(kind.name);
-  const std::string name = item.Text("type");
+  const std::string name = keys.MapWith("type").Text("type");
   const SignKind* kind = FindSign(name);
   if (kind == nullptr) {
     if (item.Has("type"))
@@ -91,21 +93,21 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
     kind = &SignKinds().front();
   }
   std::optional<double> value;
-  if (kind->with_value || item.Has("value")) value = item.Number("value", {0.0, 1000.0});
+  if (kind->with_value || item.Has("value")) value = keys.RequiredNumber("value");
   if (!kind->with_value && value)
     item.Problem("value", "config.conflicting_keys", fmt::format("the sign '{}' shows no value", name));
-  const Stand stand = ReadStand(item, length_m);
-  const std::string facing = item.Choice("for", {"along", "against", "both"}, "along");
+  const Stand stand = ReadStand(keys, length_m);
+  const std::string facing = keys.Word("for");
   const bool right_side = (facing != "against") != context.left_hand;
-  const double rotation = ReadRotation(item), height = item.Number("z_m", {-50.0, 50.0}, 2.0);
-  const double size = item.Number("height_m", {0.1, 10.0}, kind->height_m);
-  const std::string text = item.Text("text", "");
+  const double rotation = ReadRotation(keys), height = keys.Number("z_m");
+  const double size = keys.Number("height_m", kind->height_m);
+  const std::string text = keys.Text("text");
   if (text.empty() && (name == "town" || name == "end_of_town"))
     warnings.push_back(
         fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
   if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
     return item.Problem("every_m", "config.out_of_range", "more than 100 000 signs; fewer were expected");
-  const Beside beside(item, spec, -0.3, right_side);
+  const Beside beside(keys, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);
   if (height < kOverhead_m)
     WarnOnLanes(item, fmt::format("the sign '{}'", name), spec, stations, beside, 0.0, warnings);
@@ -159,25 +161,26 @@ std::vector<network::Repeat> RepeatsOf(const Stand& stand, bool continuous, cons
   return repeats;
 }
 
-void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
-  auto [object, continuous] = ReadObjectItself(item, fmt::format("{}-object{}", spec.id, spec.objects.size()));
-  object.hdg_rad = ReadRotation(item);
+void ReadObject(const DeclaredMap& keys, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
+  const Map& item = keys.map();
+  auto [object, continuous] = ReadObjectItself(keys, fmt::format("{}-object{}", spec.id, spec.objects.size()));
+  object.hdg_rad = ReadRotation(keys);
   Stand stand{};
   bool sound = true;
   if (continuous) {
-    stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
-    stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
+    stand.from_s_m = stand.s_m = Station(keys, "from_s_m", length_m, 0.0);
+    stand.to_s_m = Station(keys, "to_s_m", length_m, length_m);
     sound = stand.to_s_m > stand.from_s_m;
     if (!sound) item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     stand.repeated = true;
   } else {
-    stand = ReadStand(item, length_m);
+    stand = ReadStand(keys, length_m);
     sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
     if (sound && stand.repeated && stand.every_m >= kNearest_m &&
         (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
       return item.Problem("every_m", "config.out_of_range", "more than 100 000 objects; fewer were expected");
   }
-  const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);
+  const Beside beside(keys, spec, continuous ? -0.5 : 4.0, true);
   object.s_m = stand.s_m;
   object.t_m = beside.At(stand.s_m);
   if (sound && stand.repeated) object.repeats = RepeatsOf(stand, continuous, beside, object);
@@ -196,17 +199,18 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
   spec.objects.push_back(std::move(object));
 }
 
-void ReadStructures(const Map& road, const char* key, bool bridge, double length_m, network::RoadSpec& spec) {
-  const List list = road.OptionalItems(key);
+void ReadStructures(const DeclaredMap& road, const char* key, bool bridge, double length_m, network::RoadSpec& spec) {
+  const DeclaredList list = road.Items(key);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Map item = list.At(i);
+    const DeclaredMap keys = list.At(i);
+    const Map& item = keys.map();
     network::Structure structure;
     structure.bridge = bridge;
     structure.id = fmt::format("{}-{}{}", spec.id, bridge ? "bridge" : "tunnel", i);
-    structure.name = item.Text("name", "");
+    structure.name = keys.Text("name");
     structure.type = bridge ? "concrete" : "standard";
-    structure.s_m = item.Number("from_s_m", {0.0, length_m});
-    structure.length_m = item.Number("to_s_m", {0.0, length_m}) - structure.s_m;
+    structure.s_m = Station(keys, "from_s_m", length_m);
+    structure.length_m = Station(keys, "to_s_m", length_m) - structure.s_m;
     if (!(structure.length_m > 0.0))
       item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     for (const network::Structure& other : spec.structures) {
@@ -221,12 +225,12 @@ void ReadStructures(const Map& road, const char* key, bool bridge, double length
   }
 }
 
-void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
-  const List list = road.OptionalItems("surfaces");
+void ReadSurfaces(const DeclaredMap& road, double length_m, network::RoadSpec& spec) {
+  const DeclaredList list = road.Items("surfaces");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Map item = list.At(i);
-    const double from = item.Number("from_s_m", {0.0, length_m}, 0.0),
-                 to = item.Number("to_s_m", {0.0, length_m}, length_m);
+    const DeclaredMap keys = list.At(i);
+    const Map& item = keys.map();
+    const double from = Station(keys, "from_s_m", length_m, 0.0), to = Station(keys, "to_s_m", length_m, length_m);
     if (!(to > from)) item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     if (item.Has("crg") == item.Has("iso_8608")) {
       item.Problem(item.Has("crg") ? "crg" : "", "config.conflicting_keys",
@@ -234,26 +238,27 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
     }
     if (item.Has("crg")) {
       network::CrgSurface crg;
-      const std::filesystem::path file = item.Path("crg");
+      const std::filesystem::path file = keys.MapWith("crg").Path("crg");
       if (!file.empty())
         crg.file = std::filesystem::absolute(file).string();  // not to be looked for from the world's folder once more
       if (const std::string missing = base::NoSuchFile(file); !file.empty() && !missing.empty())
         item.Problem("crg", fmt::format("'{}': {}", file.filename().string(), missing));
-      crg.orientation = item.Choice("orientation", {"same", "opposite"}, "same");
+      crg.orientation = keys.Word("orientation");
       crg.mode = "attached";
       crg.purpose = "elevation";
       crg.s_start_m = from, crg.s_end_m = to;
-      crg.s_offset_m = item.Number("s_offset_m", {-1e6, 1e6}, 0.0);
-      crg.t_offset_m = item.Number("t_offset_m", {-100.0, 100.0}, 0.0);
-      crg.z_offset_m = item.Number("z_offset_m", {-10.0, 10.0}, 0.0);
-      crg.z_scale = item.Number("z_scale", {-100.0, 100.0}, 1.0);
+      crg.s_offset_m = keys.Number("s_offset_m");
+      crg.t_offset_m = keys.Number("t_offset_m");
+      crg.z_offset_m = keys.Number("z_offset_m");
+      crg.z_scale = keys.Number("z_scale");
       spec.crg.push_back(std::move(crg));
     } else if (item.Has("iso_8608")) {
-      const std::string letter = item.Choice("iso_8608", {"A", "B", "C", "D", "E", "F", "G", "H"});
+      const std::string letter = keys.Word("iso_8608", "A");
       network::Unevenness uneven;
       uneven.s_start_m = from, uneven.s_end_m = to;
       uneven.density_m3 = 16e-6 * std::pow(4.0, letter.empty() ? 0 : letter[0] - 'A');
-      uneven.seed = static_cast<std::uint64_t>(item.Integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
+      uneven.seed = static_cast<std::uint64_t>(
+          keys.MapWith("seed").Integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
       spec.unevenness.push_back(uneven);
     }
   }
@@ -315,11 +320,11 @@ network::Signal MakeSign(const SignKind& kind, std::optional<double> value) {
   return signal;
 }
 
-void ReadFurniture(const Map& road, const Context& context, double length_m, network::RoadSpec& spec,
+void ReadFurniture(const DeclaredMap& road, const Context& context, double length_m, network::RoadSpec& spec,
                    std::vector<std::string>& warnings) {
-  const List signs = road.OptionalItems("signs");
+  const DeclaredList signs = road.Items("signs");
   for (std::size_t i = 0; i < signs.size(); ++i) ReadSign(signs.At(i), context, length_m, spec, warnings);
-  const List objects = road.OptionalItems("objects");
+  const DeclaredList objects = road.Items("objects");
   for (std::size_t i = 0; i < objects.size(); ++i) ReadObject(objects.At(i), length_m, spec, warnings);
   ReadStructures(road, "bridges", true, length_m, spec);
   ReadStructures(road, "tunnels", false, length_m, spec);

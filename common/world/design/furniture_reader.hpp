@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/world/design/context.hpp"
 #include "common/world/network/road.hpp"
 
 namespace rodeira::design {
 
 // 'signs', 'objects', 'bridges', 'tunnels' and 'surfaces' of a road. The road's lanes must be there already.
-void ReadFurniture(const config::Map& road, const Context& context, double length_m, network::RoadSpec& spec,
+void ReadFurniture(const config::DeclaredMap& road, const Context& context, double length_m, network::RoadSpec& spec,
                    std::vector<std::string>& warnings);
 
 // A sign by its name here, as a signal without its place: its number in the German catalogue (StVO), which most

@@ -9,11 +9,13 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/design/station.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 
 constexpr double kMeets_m = 0.5;
@@ -22,10 +24,11 @@ constexpr double kSteepFit = 0.12, kSteepestFit = 0.5;
 
 // Nothing where the road is not there. Without roads, because something is wrong with one of them, the rest is looked
 // at all the same.
-std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs,
+std::optional<Meeting> ReadMeeting(const DeclaredMap& keys, const std::vector<RoadDesign>& designs,
                                    const std::vector<network::Road>& roads) {
+  const Map& item = keys.map();
   Meeting meeting;
-  const std::string id = item.Text("road");
+  const std::string id = keys.Text("road");
   std::vector<std::string> ids;
   bool found = false;
   for (std::size_t i = 0; i < designs.size(); ++i) {
@@ -40,18 +43,18 @@ std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign
                  "a road either passes a junction ('s_m') or has an 'end' there (start or end)");
   }
   if (item.Has("end")) {
-    meeting.before = item.Choice("end", {"start", "end"}) == "end";
+    meeting.before = keys.Word("end", "start") == "end";
     meeting.after = !meeting.before;
     meeting.s_m = meeting.before ? length : 0.0;
   } else if (item.Has("s_m")) {
-    meeting.s_m = item.Number("s_m", {0.0, length});
+    meeting.s_m = Station(keys, "s_m", length);
   }
   return found ? std::optional(meeting) : std::nullopt;
 }
 
 // The phases of a junction's lights: every road that meets it is green in one of them.
-void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, JunctionSpec& junction) {
-  const Map map = item.Child("lights");
+void ReadLights(const DeclaredMap& item, const std::vector<RoadDesign>& designs, JunctionSpec& junction) {
+  const Map map = item.MapWith("lights").Child("lights");
   junction.lights = lights::ReadLightPlan(map);
   if (junction.lights->phases.empty()) return;
   const std::vector<std::string> names = junction.lights->Names();
@@ -114,37 +117,38 @@ void CheckMeets(const JunctionSpec& junction, const std::vector<network::Road>& 
 
 }  // namespace
 
-std::vector<JunctionSpec> ReadJunctions(const Map& file, const std::vector<RoadDesign>& designs,
+std::vector<JunctionSpec> ReadJunctions(const DeclaredMap& file, const std::vector<RoadDesign>& designs,
                                         const std::vector<network::Road>& roads) {
   std::vector<JunctionSpec> junctions;
-  const config::List list = file.OptionalItems("junctions");
+  const config::DeclaredList list = file.Items("junctions");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Map item = list.At(i);
+    const DeclaredMap keys = list.At(i);
+    const Map& item = keys.map();
     JunctionSpec junction{{}, {}, {}, Control::kGiveWay, 8.0, 60.0, item, {}};
-    junction.id = item.Text("id");
-    junction.name = item.Text("name", junction.id);
+    junction.id = keys.Text("id");
+    junction.name = keys.Text("name", junction.id);
     for (const JunctionSpec& other : junctions) {
       if (other.id == junction.id)
         item.Problem("id", "config.duplicate_name", fmt::format("there is a junction '{}' already", junction.id));
     }
     if (junction.id.find('/') != std::string::npos)
       item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
-    const config::List meetings = item.Items("roads");
+    const config::DeclaredList meetings = keys.Items("roads");
     for (std::size_t k = 0; k < meetings.size(); ++k) {
       if (const auto meeting = ReadMeeting(meetings.At(k), designs, roads)) junction.meetings.push_back(*meeting);
     }
     const bool all_found = junction.meetings.size() == meetings.size();
-    const std::string control = item.Choice("control", {"give_way", "stop", "none", "lights"}, "give_way");
+    const std::string control = keys.Word("control");
     junction.control = control == "stop"     ? Control::kStop
                        : control == "none"   ? Control::kNone
                        : control == "lights" ? Control::kLights
                                              : Control::kGiveWay;
     if (junction.control == Control::kLights && all_found)
-      ReadLights(item, designs, junction);
+      ReadLights(keys, designs, junction);
     else if (junction.control == Control::kLights)
       item.IgnoreKey("lights");
-    junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
-    junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
+    junction.radius_m = keys.Number("radius_m");
+    junction.fit_m = keys.Number("fit_m");
     if (meetings.size() < 2)
       item.Problem("roads", "config.too_few", "a junction has two roads or more");
     else if (all_found && !roads.empty())

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/world/design/road_reader.hpp"
 #include "common/world/lights/light_plan.hpp"
 
@@ -32,7 +32,7 @@ struct JunctionSpec {
 };
 
 // Reads 'junctions' of a file. Roads must be built already (`roads`, beside the designs).
-std::vector<JunctionSpec> ReadJunctions(const config::Map& file, const std::vector<RoadDesign>& designs,
+std::vector<JunctionSpec> ReadJunctions(const config::DeclaredMap& file, const std::vector<RoadDesign>& designs,
                                         const std::vector<network::Road>& roads);
 
 // Changes the heights of minor roads, so that they meet the first one at the height of its edges, with the slope that

@@ -10,16 +10,17 @@
 #include <vector>
 
 #include "common/world/design/section_reader.hpp"
+#include "common/world/design/station.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
-using config::List;
+using config::DeclaredList;
+using config::DeclaredMap;
 using config::Map;
 using network::LaidPiece;
 
-constexpr double kSide_m = 0.3;  // over which a bump passes into the road at its sides, unless said
 constexpr double kLaidRounding_m = 1e-6;
 
 // The outermost edges of the lanes that are driven on, at s.
@@ -38,15 +39,16 @@ std::pair<double, double> Driven(const network::RoadSpec& spec, double s_m) {
 }
 
 // From one station to another and from one t to another; across all lanes that are driven on unless said.
-LaidPiece ReadPiece(const Map& item, double length_m, const network::RoadSpec& spec) {
+LaidPiece ReadPiece(const DeclaredMap& keys, double length_m, const network::RoadSpec& spec) {
+  const Map& item = keys.map();
   LaidPiece piece;
-  piece.from_s_m = item.Number("from_s_m", {0.0, length_m});
-  piece.to_s_m = item.Number("to_s_m", {0.0, length_m});
+  piece.from_s_m = Station(keys, "from_s_m", length_m);
+  piece.to_s_m = Station(keys, "to_s_m", length_m);
   if (!(piece.to_s_m > piece.from_s_m))
     item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
   const auto [right, left] = Driven(spec, piece.from_s_m);
-  piece.right_t_m = item.Number("from_t_m", {-200.0, 200.0}, right);
-  piece.left_t_m = item.Number("to_t_m", {-200.0, 200.0}, left);
+  piece.right_t_m = keys.Number("from_t_m", right);
+  piece.left_t_m = keys.Number("to_t_m", left);
   if (!(piece.left_t_m > piece.right_t_m))
     item.Problem("to_t_m", "config.wrong_order", "'to_t_m' must be above 'from_t_m': t grows to the left");
   const int outer_right = -static_cast<int>(spec.sections[0].right.size()),
@@ -76,17 +78,18 @@ void AddObject(const char* subtype, const LaidPiece& piece, network::RoadSpec& s
   spec.objects.push_back(std::move(object));
 }
 
-network::Patch ReadPatch(const Map& item, const Context& context, double length_m, network::RoadSpec& spec) {
+network::Patch ReadPatch(const DeclaredMap& item, const Context& context, double length_m, network::RoadSpec& spec) {
   network::Patch patch;
   patch.piece = ReadPiece(item, length_m, spec);
-  if (!item.Has("material") && !item.Has("friction"))
-    item.Problem("", "a patch is of another 'material', or has another 'friction', or both");
-  if (item.Has("material")) {
+  const bool has_material = item.map().Has("material"), has_friction = item.map().Has("friction");
+  if (!has_material && !has_friction)
+    item.map().Problem("", "a patch is of another 'material', or has another 'friction', or both");
+  if (has_material) {
     const Material& material = context.MaterialOf(item, "material", "asphalt");
     patch.surface = ground::SurfaceName(material.surface);
     patch.friction = material.friction;
   }
-  if (item.Has("friction")) patch.friction = item.Number("friction", {0.01, 2.0});
+  if (has_friction) patch.friction = item.RequiredNumber("friction");
   AddObject("patch", patch.piece, spec);
   spec.objects.back().material = {patch.surface, patch.friction, ""};
   return patch;
@@ -103,7 +106,8 @@ geometry::CubicTable ThroughKnots(const std::vector<Knot>& knots, bool straight)
   return geometry::CubicTable(std::move(records));
 }
 
-geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
+geometry::CubicTable ReadHeights(const DeclaredMap& keys, const LaidPiece& piece) {
+  const Map& item = keys.map();
   const double from = piece.from_s_m, length = piece.to_s_m - from;
   if (item.Has("heights") == item.Has("height_m")) {
     item.Problem(item.Has("heights") ? "heights" : "", "config.conflicting_keys",
@@ -111,14 +115,14 @@ geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
     return Constant(0.0);
   }
   if (item.Has("height_m")) {
-    const double height = item.Number("height_m", {-1.0, 1.0});
-    const bool round = item.Choice("shape", {"round", "smooth"}, "round") == "round";
+    const double height = keys.RequiredNumber("height_m");
+    const bool round = keys.MapWith("shape").Choice("shape", {"round", "smooth"}, "round") == "round";
     if (!round) return Eased({{from, 0.0}, {from + 0.5 * length, height}, {from + length, 0.0}});
     return geometry::CubicTable(
         {{from, 0.0, 4.0 * height / length, -4.0 * height / (length * length), 0.0}});  // the parabola
   }
-  std::vector<Knot> knots = ReadKnots(item, "heights", "z_m", {-1.0, 1.0});
-  const bool straight = item.Choice("shape", {"straight", "smooth"}, "straight") == "straight";
+  std::vector<Knot> knots = ReadKnots(keys, "heights", "z_m");
+  const bool straight = keys.MapWith("shape").Choice("shape", {"straight", "smooth"}, "straight") == "straight";
   const bool whole =
       knots.size() > 1 && knots.front().s_m == 0.0 && std::fabs(knots.back().s_m - length) < kLaidRounding_m;
   if (!whole || knots.front().value != 0.0 || knots.back().value != 0.0) {
@@ -131,12 +135,12 @@ geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
   return ThroughKnots(knots, straight);
 }
 
-network::Bump ReadBump(const Map& item, double length_m, network::RoadSpec& spec) {
+network::Bump ReadBump(const DeclaredMap& item, double length_m, network::RoadSpec& spec) {
   network::Bump bump;
   bump.piece = ReadPiece(item, length_m, spec);
-  bump.side_m = item.Number("side_m", {0.01, 50.0}, kSide_m);
+  bump.side_m = item.Number("side_m");
   if (2.0 * bump.side_m > bump.piece.left_t_m - bump.piece.right_t_m)
-    item.Problem("side_m", "config.wrong_order", "the bump is narrower than twice its 'side_m'");
+    item.map().Problem("side_m", "config.wrong_order", "the bump is narrower than twice its 'side_m'");
   bump.height = bump.piece.to_s_m > bump.piece.from_s_m ? ReadHeights(item, bump.piece) : Constant(0.0);
   AddObject("speedBump", bump.piece, spec);
   return bump;
@@ -144,12 +148,12 @@ network::Bump ReadBump(const Map& item, double length_m, network::RoadSpec& spec
 
 }  // namespace
 
-network::Laid ReadLaid(const Map& road, const Context& context, double length_m, network::RoadSpec& spec) {
+network::Laid ReadLaid(const DeclaredMap& road, const Context& context, double length_m, network::RoadSpec& spec) {
   network::Laid laid;
-  const List patches = road.OptionalItems("patches");
+  const DeclaredList patches = road.Items("patches");
   for (std::size_t i = 0; i < patches.size(); ++i)
     laid.patches.push_back(ReadPatch(patches.At(i), context, length_m, spec));
-  const List bumps = road.OptionalItems("bumps");
+  const DeclaredList bumps = road.Items("bumps");
   for (std::size_t i = 0; i < bumps.size(); ++i) laid.bumps.push_back(ReadBump(bumps.At(i), length_m, spec));
   return laid;
 }

@@ -9,18 +9,20 @@
 
 #include "common/core/geometry/angle.hpp"
 #include "common/world/design/section_reader.hpp"
+#include "common/world/design/station.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
+using config::DeclaredList;
+using config::DeclaredMap;
 using config::List;
-using config::Map;
 
 // Vienna Convention, annex 2: stripes of a crossing 0.4 to 0.6 m wide with gaps of one to two of them; a stop line of
 // 0.2 to 0.6 m.
 constexpr double kStripe_m = 0.5, kStripeGap_m = 0.5;
-constexpr double kStopLine_m = 0.5, kBesideStopLine_m = 0.1;  // what stays free at each edge of the lane
+constexpr double kBesideStopLine_m = 0.1;  // what stays free at each edge of the lane
 constexpr double kNarrowest_m = 0.3;
 
 struct Edges {
@@ -34,13 +36,16 @@ Edges LaneEdges(const network::RoadSpec& spec, const network::Lane& lane, double
   return {std::min(inner, outer), std::max(inner, outer)};
 }
 
+// Required of an arrow, optional of the others; the reading of both is the same where it is there.
+int LaneId(const DeclaredMap& item) { return static_cast<int>(item.MapWith("lane").Integer("lane", -30, 30)); }
+
 // The lanes that are driven on, from the left, or the one that 'lane' says.
-std::vector<const network::Lane*> MarkedLanes(const Map& item, const network::RoadSpec& spec) {
+std::vector<const network::Lane*> MarkedLanes(const DeclaredMap& item, const network::RoadSpec& spec) {
   const network::LaneSection& section = spec.sections[0];
-  if (item.Has("lane")) {
-    const auto id = static_cast<int>(item.Integer("lane", -30, 30));
+  if (item.map().Has("lane")) {
+    const int id = LaneId(item);
     const network::Lane* lane = id == 0 ? nullptr : section.Find(id);
-    if (lane == nullptr) item.Problem("lane", "world.unknown_lane", fmt::format("the road has no lane {}", id));
+    if (lane == nullptr) item.map().Problem("lane", "world.unknown_lane", fmt::format("the road has no lane {}", id));
     return lane == nullptr ? std::vector<const network::Lane*>() : std::vector{lane};
   }
   std::vector<const network::Lane*> lanes;
@@ -61,8 +66,8 @@ void Paint(double s_m, double length_m, double road_m, const Edges& edges, netwo
 
 // Stripes along the road, spread evenly about the middle of all that is driven on; and an object that names the place,
 // that the paint belongs to.
-void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
-  const double length = item.Number("length_m", {1.0, 20.0}, 4.0);
+void ReadCrossing(const DeclaredMap& item, double s_m, double road_m, network::RoadSpec& spec) {
+  const double length = item.Number("length_m");
   Edges all{1e9, -1e9};
   for (const network::Lane* lane : MarkedLanes(item, spec)) {
     const Edges edges = LaneEdges(spec, *lane, s_m);
@@ -85,13 +90,14 @@ void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec&
 }
 
 // Before the traffic that comes along, or against, where no lane is said.
-void ReadStopLine(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
-  const double thickness = item.Number("length_m", {0.1, 2.0}, kStopLine_m);
-  const int direction = item.Choice("for", {"along", "against"}, "along") == "along" ? 1 : -1;
-  if (item.Has("for") && item.Has("lane"))
-    item.Problem("for", "config.conflicting_keys", "a stop line has either a 'lane' or 'for' whom it is");
+void ReadStopLine(const DeclaredMap& item, double s_m, double road_m, network::RoadSpec& spec) {
+  const double thickness = item.Number("length_m");
+  const int direction = item.Word("for") == "along" ? 1 : -1;
+  const bool of_lane = item.map().Has("lane");
+  if (item.map().Has("for") && of_lane)
+    item.map().Problem("for", "config.conflicting_keys", "a stop line has either a 'lane' or 'for' whom it is");
   for (const network::Lane* lane : MarkedLanes(item, spec)) {
-    if (!item.Has("lane") && lane->direction == -direction) continue;
+    if (!of_lane && lane->direction == -direction) continue;
     Edges edges = LaneEdges(spec, *lane, s_m);
     edges.right_m += kBesideStopLine_m, edges.left_m -= kBesideStopLine_m;
     if (edges.width_m() > kNarrowest_m) Paint(s_m, thickness, road_m, edges, spec);
@@ -99,10 +105,11 @@ void ReadStopLine(const Map& item, double s_m, double road_m, network::RoadSpec&
 }
 
 // In the lane's middle, for its traffic.
-void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
-  (void)item.Integer("lane", -30, 30);
+void ReadArrow(const DeclaredMap& item, double s_m, network::RoadSpec& spec) {
+  (void)LaneId(item);
   std::string ways;
-  const List said = item.Items("ways");
+  const DeclaredList declared = item.Items("ways");
+  const List& said = declared.list();
   for (const auto& [word, part] :
        {std::pair("straight", "Straight"), std::pair("left", "Left"), std::pair("right", "Right")}) {
     for (std::size_t i = 0; i < said.size(); ++i) {
@@ -115,10 +122,10 @@ void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
       said.Problem(i, "config.unknown_name",
                    fmt::format("'{}' is no way that an arrow points; left, straight or right was expected", word));
   }
-  if (item.Has("ways") && said.size() == 0)
-    item.Problem("ways", "config.too_few", "an arrow points somewhere; left, straight or right was expected");
-  const double length = item.Number("length_m", {1.0, 20.0}, 5.0);
-  if (!item.Has("lane")) return;
+  if (item.map().Has("ways") && said.size() == 0)
+    item.map().Problem("ways", "config.too_few", "'ways' is empty; left, straight or right was expected");
+  const double length = item.Number("length_m");
+  if (!item.map().Has("lane")) return;
   for (const network::Lane* lane : MarkedLanes(item, spec)) {
     const Edges edges = LaneEdges(spec, *lane, s_m);
     network::Object object;
@@ -136,12 +143,13 @@ void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
 
 }  // namespace
 
-void ReadMarkings(const Map& road, double length_m, network::RoadSpec& spec) {
-  const List list = road.OptionalItems("markings");
+void ReadMarkings(const DeclaredMap& road, double length_m, network::RoadSpec& spec) {
+  const DeclaredList list = road.Items("markings");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Map item = list.At(i);
-    const std::string type = item.Choice("type", {"crossing", "stop_line", "arrow"});
-    const double s = item.Number("s_m", {0.0, length_m});
+    const DeclaredMap marking = list.At(i);
+    const std::string type = marking.Word("type");
+    const DeclaredMap item = marking.OfKind(type);
+    const double s = Station(item, "s_m", length_m);
     if (type == "crossing")
       ReadCrossing(item, s, length_m, spec);
     else if (type == "stop_line")

@@ -31,10 +31,14 @@ constexpr std::array<ObjectKind, 8> kObjects = {{
 
 }  // namespace
 
-ObjectReading ReadObjectItself(const config::Map& item, std::string id) {
+std::vector<std::string> ObjectTypes() {
   std::vector<std::string> names;
   for (const ObjectKind& kind : kObjects) names.emplace_back(kind.name);
-  const std::string name = item.Choice("type", names);
+  return names;
+}
+
+ObjectReading ReadObjectItself(const config::DeclaredMap& item, std::string id) {
+  const std::string name = item.Word("type");
   const ObjectKind* kind = &kObjects[0];
   for (const ObjectKind& known : kObjects) {
     if (name == known.name) kind = &known;
@@ -46,17 +50,17 @@ ObjectReading ReadObjectItself(const config::Map& item, std::string id) {
   object.type = kind->type;
   object.subtype = name;
   object.name = item.Text("name", name);
-  if (const auto model = item.OptionalPath("model")) {
+  if (const auto model = item.MapWith("model").OptionalPath("model")) {
     std::error_code problem;
     if (!std::filesystem::is_regular_file(*model, problem))
-      item.Problem("model", "file.not_found", fmt::format("there is no model file '{}'", model->string()));
+      item.map().Problem("model", "file.not_found", fmt::format("there is no model file '{}'", model->string()));
     object.name = std::filesystem::absolute(*model).string();  // not to be looked for from where the program stands
   }
-  object.length_m = item.Number("length_m", {0.0, 1000.0}, kind->length_m);
-  object.width_m = item.Number("width_m", {0.0, 1000.0}, kind->width_m);
-  object.height_m = item.Number("height_m", {0.0, 200.0}, kind->height_m);
-  if (name == "tree" || name == "bush") object.radius_m = item.Number("radius_m", {0.1, 50.0}, 0.3 * object.height_m);
-  object.z_offset_m = item.Number("z_m", {-50.0, 50.0}, 0.0);
+  object.length_m = item.Number("length_m", kind->length_m);
+  object.width_m = item.Number("width_m", kind->width_m);
+  object.height_m = item.Number("height_m", kind->height_m);
+  if (name == "tree" || name == "bush") object.radius_m = item.Number("radius_m", 0.3 * object.height_m);
+  object.z_offset_m = item.Number("z_m");
   object.orientation = "none";
   return reading;
 }

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/world/network/furniture.hpp"
 
 namespace rodeira::design {
 
 // The most objects in a row, as of a row of trees.
 inline constexpr double kMaxInRow = 1e5;
+
+// The types of objects.
+std::vector<std::string> ObjectTypes();
 
 // What stands somewhere, by the keys that do not say where.
 struct ObjectReading {
@@ -19,6 +23,6 @@ struct ObjectReading {
 
 // 'type', 'name', 'model', 'length_m', 'width_m', 'height_m', 'radius_m' and 'z_m' of an object, with the usual sizes
 // of its type.
-ObjectReading ReadObjectItself(const config::Map& item, std::string id);
+ObjectReading ReadObjectItself(const config::DeclaredMap& item, std::string id);
 
 }  // namespace rodeira::design

@@ -134,13 +134,14 @@ Points ReadList(const config::Map& map, bool& has_z) {
 
 }  // namespace
 
-void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisReading& axis) {
+void ReadPoints(const config::DeclaredMap& keys, const terrain::GroundMove& move, AxisReading& axis) {
+  const config::Map& map = keys.map();
   Points points;
   bool has_z = false;
   if (map.Has("file") == map.Has("list"))
     map.Problem(map.Has("file") ? "file" : "", "config.conflicting_keys", "'points' needs either a 'file' or a 'list'");
   if (map.Has("file")) {
-    const auto path = map.Path("file");
+    const auto path = keys.MapWith("file").Path("file");
     const auto text = base::ReadText(path);
     if (!text) return map.Problem("file", text.error().id, text.error().Text());
     const auto line = geometry::ReadPolyline(text.value(), path.string());
@@ -152,7 +153,7 @@ void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisRea
         return map.Problem("file", "config.out_of_range", "a coordinate is beyond 1e8 m");
     }
   } else if (map.Has("list")) {
-    points = ReadList(map, has_z);
+    points = ReadList(keys.MapWith("list"), has_z);
   }
   if (move) {
     for (Eigen::Vector3d& p : points) {
@@ -162,9 +163,13 @@ void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisRea
       p.head<2>() = at;
     }
   }
-  const bool smooth = map.Flag("smooth", true);
-  const double within = map.Number("within_m", {0.001, 10.0}, 0.05);
-  if (points.size() < 2) return map.Problem("", "config.too_few", "two points or more were expected");
+  const bool smooth = keys.Flag("smooth");
+  const double within = keys.Number("within_m");
+  if (points.size() < 2) {
+    return map.Problem(
+        "", "config.too_few",
+        fmt::format("'{}' has {} points; two or more were expected", map.Has("file") ? "file" : "list", points.size()));
+  }
   for (std::size_t i = 2; i < points.size(); ++i) {
     const Eigen::Vector2d before = (points[i - 1] - points[i - 2]).head<2>(),
                           after = (points[i] - points[i - 1]).head<2>();

@@ -6,6 +6,6 @@
 namespace rodeira::design {
 
 // 'points': a file of points or a list of them, smoothed or as they are, into elements and heights.
-void ReadPoints(const config::Map& points, const terrain::GroundMove& move, AxisReading& axis);
+void ReadPoints(const config::DeclaredMap& points, const terrain::GroundMove& move, AxisReading& axis);
 
 }  // namespace rodeira::design

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/world/design/road_schema.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
@@ -16,18 +17,17 @@ using config::Map;
 
 constexpr double kSteepestGrade = 0.5;
 constexpr double kFeltKink = 0.005;  // of a grade, without a parabola
-constexpr config::Range kStation_m = {-1e8, 1e8};
-constexpr config::Range kHeight_m = {-12'000.0, 12'000.0};
 
 }  // namespace
 
 std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
   std::vector<geometry::GradePoint> grades;
   const List points = road.Items("vertical");
+  const config::DeclaredList declared(points, config::FindKey(RoadKeys(), "vertical")->of.front());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Map item = points.At(i);
-    const geometry::GradePoint point{item.Number("s_m", kStation_m), item.Number("z_m", kHeight_m),
-                                     item.Number("parabola_m", config::Range::NotNegative(), 0.0)};
+    const config::DeclaredMap keys = declared.At(i);
+    const Map& item = keys.map();
+    const geometry::GradePoint point{keys.Number("s_m"), keys.Number("z_m"), keys.Number("parabola_m")};
     if (i > 0 && point.s_m <= grades.back().s_m)
       item.Problem("s_m", "config.wrong_order", "the points of 'vertical' must come in ascending 's_m'");
     if ((i == 0 || i + 1 == points.size()) && point.parabola_m > 0.0) {
@@ -89,8 +89,8 @@ geometry::CubicTable Elevation(const geometry::VerticalProfile& profile, double 
   return geometry::CubicTable(std::move(records));
 }
 
-geometry::CubicTable ReadSuperelevation(const Map& road) {
-  std::vector<Knot> knots = ReadKnots(road, "superelevation", "slope", {-0.2, 0.2});
+geometry::CubicTable ReadSuperelevation(const config::DeclaredMap& road) {
+  std::vector<Knot> knots = ReadKnots(road, "superelevation", "slope");
   for (Knot& knot : knots) knot.value = std::atan(knot.value);
   return Eased(knots);
 }

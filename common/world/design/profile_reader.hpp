@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/geometry/cubic.hpp"
 #include "common/core/geometry/vertical_profile.hpp"
 
@@ -22,6 +22,6 @@ geometry::CubicTable Elevation(const geometry::VerticalProfile& profile, double 
 
 // 'superelevation': {s_m, slope}, the slope across as a ratio, positive where the left side is higher, passing by
 // 3 u^2 - 2 u^3 from point to point; as an angle over s.
-geometry::CubicTable ReadSuperelevation(const config::Map& road);
+geometry::CubicTable ReadSuperelevation(const config::DeclaredMap& road);
 
 }  // namespace rodeira::design

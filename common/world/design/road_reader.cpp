@@ -15,11 +15,13 @@
 #include "common/world/design/marking_reader.hpp"
 #include "common/world/design/profile_reader.hpp"
 #include "common/world/design/section_reader.hpp"
+#include "common/world/design/station.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
+using config::DeclaredMap;
 using config::Map;
 
 constexpr double kSharpest = 0.95;  // curvature times the distance of the inner edge
@@ -29,16 +31,17 @@ double PlanLength(const std::vector<geometry::PlanElement>& elements) {
 }
 
 // 'place': where on another road a station of this one lies, and how it is turned against it. Returns the height there.
-std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>& before,
+std::optional<double> ReadPlacing(const DeclaredMap& declared, const std::vector<RoadDesign>& before,
                                   std::vector<geometry::PlanElement>& elements) {
+  const Map& road = declared.map();
   if (!road.Has("place")) return std::nullopt;
-  const Map place = road.Child("place");
+  const DeclaredMap place = declared.Child("place");
   if (road.Has("start"))
     road.Problem("place", "config.conflicting_keys", "a road has either a 'start' or a 'place' on another road");
   const std::string id = place.Text("road");
-  const double s = place.Number("s_m", {0.0, 1e7}),
-               turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
-  const double own_s = place.Number("own_s_m", {0.0, PlanLength(elements)}, 0.0);
+  const double s = place.Number("s_m"), turn = place.Number("turn_deg") * geometry::kPi / 180.0;
+  const double own_s = Station(place, "own_s_m", PlanLength(elements), 0.0);
+  if (!place.map().Has("road")) return std::nullopt;  // a problem already
   std::vector<std::string> ids;
   for (const RoadDesign& other : before) {
     ids.push_back(other.spec.id);
@@ -47,24 +50,23 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
     const auto axis = geometry::PlanAxis::Make(other.elements);
     if (!axis) return std::nullopt;
     if (s > axis->length_m()) {
-      place.Problem("s_m", fmt::format("'s_m' is {}; road '{}' is {:.3f} m long", s, id, axis->length_m()));
+      place.map().Problem("s_m", fmt::format("'s_m' is {}; road '{}' is {:.3f} m long", s, id, axis->length_m()));
       return std::nullopt;
     }
     const geometry::PlanPoint at = axis->Evaluate(s);
     Place(elements, own_s, at.p_W, at.heading_rad + turn);
     return other.spec.elevation.Value(s);
   }
-  place.Problem("road", "world.unknown_road",
-                fmt::format("there is no road '{}' before this one{}", id, base::DidYouMean(id, ids)));
+  place.map().Problem("road", "world.unknown_road",
+                      fmt::format("there is no road '{}' before this one{}", id, base::DidYouMean(id, ids)));
   return std::nullopt;
 }
 
-void ReadSpeeds(const Map& road, network::RoadSpec& spec) {
-  const std::string kind =
-      road.Choice("kind", {"rural", "town", "motorway", "lowSpeed", "pedestrian", "bicycle", "unknown"}, "rural");
-  const auto knots = ReadKnots(road, "speed_limits", "speed_kmh", {1.0, 400.0});
+void ReadSpeeds(const DeclaredMap& road, network::RoadSpec& spec) {
+  const std::string kind = road.Word("kind");
+  const auto knots = ReadKnots(road, "speed_limits", "speed_kmh");
   network::RoadType type{0.0, kind, "", std::nullopt};
-  if (road.Has("speed_limit_kmh")) type.speed_mps = road.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6;
+  if (const auto speed_kmh = road.OptionalNumber("speed_limit_kmh")) type.speed_mps = *speed_kmh / 3.6;
   if (knots.empty() || knots[0].s_m > 0.0) spec.types.push_back(type);
   for (const Knot& knot : knots) {
     type.s_m = knot.s_m;
@@ -75,21 +77,22 @@ void ReadSpeeds(const Map& road, network::RoadSpec& spec) {
 
 }  // namespace
 
-RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesign>& before) {
+RoadDesign ReadRoad(const DeclaredMap& keys, Context& context, const std::vector<RoadDesign>& before) {
+  const Map& map = keys.map();
   RoadDesign design{{}, {}, map};
   network::RoadSpec& spec = design.spec;
-  spec.id = map.Text("id");
-  spec.name = map.Text("name", spec.id);
+  spec.id = keys.Text("id");
+  spec.name = keys.Text("name", spec.id);
   if (spec.id.find('/') != std::string::npos)
     map.Problem("id", "a road's id holds no '/': the parts between junctions are named with it");
   for (const RoadDesign& other : before) {
     if (other.spec.id == spec.id)
       map.Problem("id", "config.duplicate_name", fmt::format("there is a road '{}' already", spec.id));
   }
-  AxisReading axis = ReadAxis(map, context.move);
+  AxisReading axis = ReadAxis(keys, context.move);
   context.warnings.insert(context.warnings.end(), axis.warnings.begin(), axis.warnings.end());
   design.elements = std::move(axis.elements);
-  const std::optional<double> met = ReadPlacing(map, before, design.elements);
+  const std::optional<double> met = ReadPlacing(keys, before, design.elements);
   const double length = PlanLength(design.elements);
   spec.length_m = length;
   (void)config::RejectConflictingKeys(map, "vertical", "z_m");
@@ -97,7 +100,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
     if (axis.elevation)
       map.Problem("vertical", "config.conflicting_keys",
                   "the points of this road have heights; without them 'vertical' counts");
-    std::vector<geometry::GradePoint> grades = ReadGrades(map);
+    std::vector<geometry::GradePoint> grades = ReadGrades(keys.MapWith("vertical"));
     bool ascending = !grades.empty();
     for (std::size_t i = 1; i < grades.size(); ++i) {
       ascending = ascending && grades[i].s_m > grades[i - 1].s_m && grades[i].parabola_m >= 0.0;
@@ -110,17 +113,17 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   } else if (axis.elevation) {
     spec.elevation = std::move(*axis.elevation);
   } else {
-    spec.elevation = Constant(map.Number("z_m", {-12'000.0, 12'000.0}, met.value_or(0.0)));
+    spec.elevation = Constant(keys.Number("z_m", met.value_or(0.0)));
   }
-  spec.superelevation = ReadSuperelevation(map);
-  ReadSpeeds(map, spec);
-  const std::string rule = map.Choice("rule", {"right", "left"}, context.left_hand ? "left" : "right");
+  spec.superelevation = ReadSuperelevation(keys);
+  ReadSpeeds(keys, spec);
+  const std::string rule = keys.Word("rule", context.left_hand ? "left" : "right");
   Context own = context;
   own.left_hand = rule == "left";
-  ReadSection(map, own, length, spec);
-  ReadFurniture(map, own, length, spec, context.warnings);
-  ReadMarkings(map, length, spec);
-  design.laid = ReadLaid(map, own, length, spec);
+  ReadSection(keys, own, length, spec);
+  ReadFurniture(keys, own, length, spec, context.warnings);
+  ReadMarkings(keys, length, spec);
+  design.laid = ReadLaid(keys, own, length, spec);
   return design;
 }
 

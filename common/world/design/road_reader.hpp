@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/world/design/context.hpp"
 #include "common/world/network/laid.hpp"
 #include "common/world/network/road.hpp"
@@ -21,7 +21,7 @@ struct RoadDesign {
 
 // Reads one road; `before` are those that it may be placed at. What is wrong is a problem of the map's file; where
 // there is any, the road must not be built.
-RoadDesign ReadRoad(const config::Map& map, Context& context, const std::vector<RoadDesign>& before);
+RoadDesign ReadRoad(const config::DeclaredMap& keys, Context& context, const std::vector<RoadDesign>& before);
 
 // The road as it stands, without junctions. Nothing, and a problem, where its axis cannot be.
 std::optional<network::Road> BuildRoad(const RoadDesign& design);

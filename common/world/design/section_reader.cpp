@@ -9,23 +9,26 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/world/design/line_reader.hpp"
+#include "common/world/design/section_schema.hpp"
 #include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
 
-using config::List;
+using config::DeclaredList;
+using config::DeclaredMap;
 using config::Map;
 using geometry::CubicTable;
 using network::Lane;
 using network::LaneType;
 
-constexpr config::Range kFall = {-0.2, 0.2};
-
 // A section's keys, of which those that are left out stand in its template.
 struct Keys {
-  Map own, other;
-  const Map& With(std::string_view key) const { return other.Has(key) && !own.Has(key) ? other : own; }
+  DeclaredMap own, other;
+  bool Has(std::string_view key) const { return own.map().Has(key) || other.map().Has(key); }
+  const DeclaredMap& With(std::string_view key) const {
+    return other.map().Has(key) && !own.map().Has(key) ? other : own;
+  }
 };
 
 struct Falls {
@@ -33,16 +36,16 @@ struct Falls {
 };
 
 Falls ReadFalls(const Keys& keys) {
-  const Map& map = keys.With("crossfalls").Has("crossfalls") ? keys.With("crossfalls") : keys.With("crossfall");
-  if (map.Has("crossfalls")) {
-    const auto left = ReadKnots(map, "crossfalls", "left", kFall), right = ReadKnots(map, "crossfalls", "right", kFall);
+  if (keys.Has("crossfalls")) {
+    const DeclaredMap& map = keys.With("crossfalls");
+    const auto left = ReadKnots(map, "crossfalls", "left"), right = ReadKnots(map, "crossfalls", "right");
     if (left.empty())
-      map.Problem("crossfalls", "config.too_few", "'crossfalls' has no points; at least one was expected");
+      map.map().Problem("crossfalls", "config.too_few", "'crossfalls' has no points; at least one was expected");
     return {Eased(left), Eased(right)};
   }
-  const Map crossfall = map.OptionalChild("crossfall");
-  const std::string kind = crossfall.Choice("kind", {"crown", "left", "right"}, "crown");
-  const double fall = crossfall.Number("fall", {0.0, 0.2}, 0.025);
+  const DeclaredMap crossfall = keys.With("crossfall").Child("crossfall");
+  const std::string kind = crossfall.Word("kind");
+  const double fall = crossfall.Number("fall");
   return {Constant(kind == "right" ? -fall : fall), Constant(kind == "left" ? -fall : fall)};
 }
 
@@ -63,23 +66,22 @@ Strip MakeStrip(LaneType type, CubicTable width, const Material& material, Cubic
   return strip;
 }
 
-Strip ReadLane(const Map& item, int id, const Context& context, const Falls& falls) {
-  const std::string name = item.Choice("type", network::LaneTypeNames(), "driving");
+Strip ReadLane(const DeclaredMap& item, int id, const Context& context, const Falls& falls) {
+  const std::string name = item.Word("type");
   const LaneType type = network::LaneTypeByName(name).value_or(LaneType::kDriving);
   const bool paved = type != LaneType::kNone && type != LaneType::kMedian;
   const bool walked = type == LaneType::kSidewalk || type == LaneType::kWalking || type == LaneType::kCurb;
   const Material& material = context.MaterialOf(item, "material", !paved ? "grass" : walked ? "concrete" : "asphalt");
   CubicTable fall = id > 0 ? falls.left : falls.right;
-  if (item.Has("fall")) fall = Constant(item.Number("fall", kFall));
-  Strip strip = MakeStrip(type, ReadTable(item, "width_m", "widths", "width_m", {0.0, 50.0}, std::nullopt), material,
-                          std::move(fall));
-  strip.kerb_m = item.Number("kerb_m", {-0.5, 0.5}, 0.0);
-  if (item.Has("speed_limit_kmh"))
-    strip.lane.speeds.push_back({0.0, item.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6});
+  if (const auto own = item.OptionalNumber("fall")) fall = Constant(*own);
+  Strip strip =
+      MakeStrip(type, ReadTable(item, "width_m", "widths", "width_m", IfAbsent::kProblem), material, std::move(fall));
+  strip.kerb_m = item.Number("kerb_m");
+  if (const auto speed_kmh = item.OptionalNumber("speed_limit_kmh"))
+    strip.lane.speeds.push_back({0.0, *speed_kmh / 3.6});
   const bool with_s = (id < 0) != context.left_hand;
-  strip.lane.direction =
-      item.Choice("direction", {"along", "against", "both"}, with_s ? "along" : "against") == "along" ? 1 : -1;
-  if (item.Has("direction") && item.Text("direction") == "both") strip.lane.direction = 0;
+  const std::string direction = item.Word("direction", with_s ? "along" : "against");
+  strip.lane.direction = direction == "along" ? 1 : direction == "both" ? 0 : -1;
   return strip;
 }
 
@@ -87,18 +89,20 @@ Strip ReadLane(const Map& item, int id, const Context& context, const Falls& fal
 using Sides = std::map<int, Strip>;
 
 Sides ReadLanes(const Keys& keys, const Context& context, const Falls& falls) {
-  const Map& map = keys.With("lanes");
+  const Map& map = keys.With("lanes").MapWith("lanes");
   Sides sides;
-  const List lanes = map.Items("lanes");
+  const DeclaredList lanes(map.Items("lanes"), config::FindKey(TemplateKeys(), "lanes")->of.front());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const Map item = lanes.At(i);
-    const int id = static_cast<int>(item.Integer("id", -30, 30));
+    const DeclaredMap item = lanes.At(i);
+    const int id = static_cast<int>(item.Integer("id"));
     if (id == 0)
-      item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
+      item.map().Problem("id",
+                         "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
     if (!sides.emplace(id, ReadLane(item, id, context, falls)).second)
-      item.Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", id));
+      item.map().Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", id));
   }
-  if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "config.too_few", "a road needs at least one lane");
+  if (map.Has("lanes") && lanes.size() == 0)
+    map.Problem("lanes", "config.too_few", "'lanes' is empty; a road needs at least one lane");
   for (const auto& [id, strip] : sides) {
     const int inner = id > 0 ? id - 1 : id + 1;
     if (id != 0 && inner != 0 && !sides.contains(inner)) {
@@ -109,16 +113,16 @@ Sides ReadLanes(const Keys& keys, const Context& context, const Falls& falls) {
 }
 
 void AddBorders(const Keys& keys, bool left, const Context& context, const Falls& falls, std::vector<Strip>& side) {
-  const Map shoulder = keys.With("shoulders").OptionalChild("shoulders").OptionalChild(left ? "left" : "right");
-  const CubicTable width = ReadTable(shoulder, "width_m", "widths", "width_m", {0.0, 20.0}, 0.0);
+  const DeclaredMap shoulder = keys.With("shoulders").Child("shoulders").Child(left ? "left" : "right");
+  const CubicTable width = ReadTable(shoulder, "width_m", "widths", "width_m", IfAbsent::kDefault);
   const Material& paving = context.MaterialOf(shoulder, "material", "asphalt");
   CubicTable fall = left ? falls.left : falls.right;
-  if (shoulder.Has("fall")) fall = Constant(shoulder.Number("fall", kFall));
+  if (const auto own = shoulder.OptionalNumber("fall")) fall = Constant(*own);
   if (!width.zero()) side.push_back(MakeStrip(LaneType::kShoulder, width, paving, std::move(fall)));
-  const Map verge = keys.With("verge").OptionalChild("verge");
-  const CubicTable grass_width = ReadTable(verge, "width_m", "widths", "width_m", {0.0, 50.0}, 1.0);
+  const DeclaredMap verge = keys.With("verge").Child("verge");
+  const CubicTable grass_width = ReadTable(verge, "width_m", "widths", "width_m", IfAbsent::kDefault);
   const Material& grass = context.MaterialOf(verge, "material", "grass");
-  const double verge_fall = verge.Number("fall", {-0.5, 0.5}, 0.08);
+  const double verge_fall = verge.Number("fall");
   if (!grass_width.zero()) side.push_back(MakeStrip(LaneType::kNone, grass_width, grass, Constant(verge_fall)));
 }
 
@@ -146,49 +150,48 @@ void Lay(std::vector<Strip>& side, bool left, bool left_hand, network::LaneSecti
 }
 
 void ReadEarthwork(const Keys& keys, network::Earthwork& earthwork) {
-  const Map slopes = keys.With("slopes").OptionalChild("slopes");
-  earthwork.cut = slopes.Number("cut", {0.05, 20.0}, earthwork.cut);
-  earthwork.fill = slopes.Number("fill", {0.05, 20.0}, earthwork.fill);
-  earthwork.reach_m = slopes.Number("reach_m", {1.0, 500.0}, earthwork.reach_m);
+  const DeclaredMap slopes = keys.With("slopes").Child("slopes");
+  earthwork.cut = slopes.Number("cut");
+  earthwork.fill = slopes.Number("fill");
+  earthwork.reach_m = slopes.Number("reach_m");
 }
 
-Keys FindKeys(const Map& road, const Context& context) {
-  const Map section = road.Child("section");
+Keys FindKeys(const DeclaredMap& road, const Context& context) {
+  const DeclaredMap section = road.Child("section");
   const std::string name = section.Text("template", "");
-  if (name.empty()) return {section, section.OptionalChild("template")};
+  if (name.empty())
+    return {section, DeclaredMap(section.MapWith("template").OptionalChild("template"), TemplateKeys())};
   const auto found = context.templates.find(name);
   if (found != context.templates.end()) {
     // A road may say all of a template's keys itself: they are known even where none asks for them.
     const Map other = found->second.Child(name);
-    const std::vector<std::string> known = {"lanes",    "crossfall", "crossfalls", "shoulders", "verge",
-                                            "offset_m", "offsets",   "slopes",     "lines"};
+    std::vector<std::string> known;
+    for (const config::Key& key : TemplateKeys()) known.push_back(key.name);
     for (const std::string& key : other.Keys()) {
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         other.Problem(key, "config.unknown_name",
                       fmt::format("'{}' is no key of a template{}", key, base::DidYouMean(key, known)));
       }
     }
-    return {section, other};
+    return {section, DeclaredMap(other, TemplateKeys())};
   }
   std::vector<std::string> names;
   for (const auto& [known, map] : context.templates) names.push_back(known);
-  section.Problem("template", "config.unknown_name",
-                  fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
-  constexpr std::string_view kUsual = "rural";
-  return {
-      section,
-      context.templates.find(std::string(kUsual))->second.Child(kUsual)};  // what is missing for want of it is not told
+  section.map().Problem("template", "config.unknown_name",
+                        fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
+  constexpr std::string_view kUsual = "rural";  // what is missing for want of it is not told
+  return {section, DeclaredMap(context.templates.find(std::string(kUsual))->second.Child(kUsual), TemplateKeys())};
 }
 
 }  // namespace
 
-void ReadSection(const Map& road, Context& context, double length_m, network::RoadSpec& spec) {
+void ReadSection(const DeclaredMap& road, Context& context, double length_m, network::RoadSpec& spec) {
   const Keys keys = FindKeys(road, context);
   const Falls falls = ReadFalls(keys);
   Sides sides = ReadLanes(keys, context, falls);
   spec.left_hand = context.left_hand;
-  spec.lane_offset = ReadTable(keys.With("offset_m").Has("offset_m") ? keys.With("offset_m") : keys.With("offsets"),
-                               "offset_m", "offsets", "t_m", {-100.0, 100.0}, 0.0);
+  spec.lane_offset = ReadTable(keys.With(keys.Has("offset_m") ? "offset_m" : "offsets"), "offset_m", "offsets", "t_m",
+                               IfAbsent::kDefault);
   spec.lateral.surface.t_offset = spec.lane_offset;
   network::LaneSection section;
   for (const bool left : {true, false}) {
@@ -200,10 +203,10 @@ void ReadSection(const Map& road, Context& context, double length_m, network::Ro
   spec.sections.assign(1, std::move(section));
   spec.earthwork.emplace();
   ReadEarthwork(keys, *spec.earthwork);
-  if (road.Has("lines"))
+  if (road.map().Has("lines"))
     ReadLines(road, false, length_m, spec);
   else
-    ReadLines(keys.With("lines"), !keys.own.Has("lines"), length_m, spec);
+    ReadLines(keys.With("lines"), !keys.own.map().Has("lines"), length_m, spec);
 }
 
 CubicTable EdgeOf(const network::RoadSpec& spec, int lane) {

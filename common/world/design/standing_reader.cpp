@@ -13,12 +13,12 @@
 namespace rodeira::design {
 namespace {
 
-using config::List;
+using config::DeclaredList;
+using config::DeclaredMap;
 using config::Map;
 using Eigen::Vector2d;
 
-constexpr config::Range kPlace_m = {-1e8, 1e8};
-constexpr config::Range kTurn_deg = {-360.0, 360.0};
+constexpr double kFarthest_m = 1e8;
 constexpr double kLongest_m = 1e5;  // of what goes on
 
 double Radians(double deg) { return deg * geometry::kPi / 180.0; }
@@ -26,10 +26,10 @@ double Radians(double deg) { return deg * geometry::kPi / 180.0; }
 // The corners of a line; fewer than two, and a problem, where it is none.
 std::vector<Vector2d> ReadAlong(const Map& item) {
   std::vector<Vector2d> points;
-  const List list = item.Items("along");
+  const config::List list = item.Items("along");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> p = list.Numbers(i);
-    if (p.size() != 2 || !(std::fabs(p[0]) <= kPlace_m.high) || !(std::fabs(p[1]) <= kPlace_m.high)) {
+    if (p.size() != 2 || !(std::fabs(p[0]) <= kFarthest_m) || !(std::fabs(p[1]) <= kFarthest_m)) {
       list.Problem(i, "config.out_of_range", "a point of 'along' is [x, y], in metres, each at most 1e8");
       return {};
     }
@@ -53,11 +53,12 @@ double PolylineLength(const std::vector<Vector2d>& line) {
 }
 
 // From the line's beginning on one every so often, turned against it.
-void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t object, network::Standing& standing) {
-  const double every = item.Number("every_m", {0.1, 1e6}), turn = Radians(item.Number("rotation_deg", kTurn_deg, 0.0));
+void StandInARow(const DeclaredMap& item, const std::vector<Vector2d>& line, std::size_t object,
+                 network::Standing& standing) {
+  const double every = item.RequiredNumber("every_m"), turn = Radians(item.Number("rotation_deg"));
   const double last = std::floor(PolylineLength(line) / every + 1e-9);
   if (last >= kMaxInRow)
-    return item.Problem("every_m", "config.out_of_range", "more than 100 000 in a row; fewer were expected");
+    return item.map().Problem("every_m", "config.out_of_range", "more than 100 000 in a row; fewer were expected");
   std::size_t piece = 1;
   double before = 0.0;  // the piece's first point, along the line
   for (double i = 0.0; i <= last; i += 1.0) {
@@ -72,9 +73,10 @@ void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t
   }
 }
 
-void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+void ReadThing(const DeclaredMap& keys, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
                network::Standing& standing) {
-  auto [object, continuous] = ReadObjectItself(item, fmt::format("object{}", standing.objects.size()));
+  const Map& item = keys.map();
+  auto [object, continuous] = ReadObjectItself(keys, fmt::format("object{}", standing.objects.size()));
   const std::size_t index = standing.objects.size(), first = standing.things.size();
   standing.objects.push_back(std::move(object));
   if (continuous || item.Has("along")) {
@@ -83,7 +85,7 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
         item.Problem(key, "config.conflicting_keys",
                      fmt::format("what stands 'along' a line has no '{}' of its own", key));
     }
-    std::vector<Vector2d> line = ReadAlong(item);
+    std::vector<Vector2d> line = ReadAlong(keys.MapWith("along"));
     if (line.size() < 2) return;
     for (Vector2d& p : line) {
       double heading_rad = 0.0;
@@ -95,7 +97,7 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
                             fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
     }
     if (!continuous)
-      StandInARow(item, line, index, standing);
+      StandInARow(keys, line, index, standing);
     else if (item.Has("every_m"))
       item.Problem("every_m", "config.conflicting_keys", "what goes on has no 'every_m'");
     else if (PolylineLength(line) > kLongest_m)
@@ -105,9 +107,8 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
     else
       standing.runs.push_back({index, std::move(line)});
   } else {
-    standing.things.push_back({index,
-                               {item.Number("x_m", kPlace_m), item.Number("y_m", kPlace_m)},
-                               Radians(item.Number("heading_deg", kTurn_deg, 0.0))});
+    standing.things.push_back(
+        {index, {keys.RequiredNumber("x_m"), keys.RequiredNumber("y_m")}, Radians(keys.Number("heading_deg"))});
     if (move) move(standing.things.back().at_W, standing.things.back().heading_rad);
     if (item.Has("every_m"))
       item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
@@ -122,9 +123,9 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
 
 }  // namespace
 
-void ReadStanding(const Map& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+void ReadStanding(const DeclaredMap& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
                   network::Standing& standing) {
-  const List objects = file.OptionalItems("objects");
+  const DeclaredList objects = file.Items("objects");
   for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, move, standing);
 }
 

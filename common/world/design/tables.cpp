@@ -81,16 +81,15 @@ CubicTable WithHermite(const CubicTable& table, const Hermite& piece) {
   return CubicTable(std::move(records));
 }
 
-std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key,
-                            config::Range range) {
+std::vector<Knot> ReadKnots(const config::DeclaredMap& map, std::string_view list_key, std::string_view value_key) {
   std::vector<Knot> knots;
-  const config::List list = map.OptionalItems(list_key);
+  const config::DeclaredList list = map.Items(list_key);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const config::Map item = list.At(i);
-    const Knot knot{item.Number("s_m", {0.0, 1e8}), item.Number(value_key, range)};
+    const config::DeclaredMap item = list.At(i);
+    const Knot knot{item.Number("s_m"), item.Number(value_key)};
     if (!knots.empty() && !(knot.s_m > knots.back().s_m)) {
-      item.Problem("s_m", "config.wrong_order",
-                   fmt::format("the points of '{}' must come in ascending 's_m'", list_key));
+      item.map().Problem("s_m", "config.wrong_order",
+                         fmt::format("the points of '{}' must come in ascending 's_m'", list_key));
       continue;
     }
     knots.push_back(knot);
@@ -98,18 +97,19 @@ std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, s
   return knots;
 }
 
-CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
-                     std::string_view value_key, config::Range range, std::optional<double> default_value) {
+CubicTable ReadTable(const config::DeclaredMap& declared, std::string_view key, std::string_view list_key,
+                     std::string_view value_key, IfAbsent if_absent) {
+  const config::Map& map = declared.map();
   if (map.Has(list_key)) {
     if (map.Has(key))
       map.Problem(key, "config.conflicting_keys",
                   fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
-    const auto knots = ReadKnots(map, list_key, value_key, range);
+    const auto knots = ReadKnots(declared, list_key, value_key);
     if (knots.empty())
       map.Problem(list_key, "config.too_few", fmt::format("'{}' has no points; at least one was expected", list_key));
     return Eased(knots);
   }
-  return Constant(default_value ? map.Number(key, range, *default_value) : map.Number(key, range));
+  return Constant(if_absent == IfAbsent::kDefault ? declared.Number(key) : declared.RequiredNumber(key));
 }
 
 }  // namespace rodeira::design

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/core/geometry/cubic.hpp"
 
 // Functions of the station, as cubics.
@@ -30,11 +30,12 @@ struct Hermite {
 };
 geometry::CubicTable WithHermite(const geometry::CubicTable& table, const Hermite& piece);
 
-// `key` as one number, or as a list of {s_m, value_key}, ascending; `otherwise` where it is absent.
-geometry::CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
-                               std::string_view value_key, config::Range range, std::optional<double> default_value);
+enum class IfAbsent { kProblem, kDefault };
+// `key` as one number, or as a list of {s_m, value_key}, ascending. Where both are absent: a problem, or the default of
+// `key`.
+geometry::CubicTable ReadTable(const config::DeclaredMap& map, std::string_view key, std::string_view list_key,
+                               std::string_view value_key, IfAbsent if_absent);
 // A list of {s_m, value_key}, ascending.
-std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key,
-                            config::Range range);
+std::vector<Knot> ReadKnots(const config::DeclaredMap& map, std::string_view list_key, std::string_view value_key);
 
 }  // namespace rodeira::design

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/config/declared.hpp"
+#include "common/world/lights/light_schema.hpp"
+
 namespace rodeira::lights {
 namespace {
 
@@ -42,29 +45,30 @@ std::vector<std::string> LightPlan::Names() const {
 }
 
 LightPlan ReadLightPlan(const config::Map& map) {
+  const config::DeclaredMap keys(map, LightPlanKeys());
   LightPlan plan;
-  plan.offset_s = map.Number("offset_s", {0.0, 600.0}, plan.offset_s);
-  plan.amber_s = map.Number("amber_s", {1.0, 10.0}, plan.amber_s);
-  plan.all_red_s = map.Number("all_red_s", {0.0, 60.0}, plan.all_red_s);
-  plan.red_amber_s = map.Number("red_amber_s", {0.0, 10.0}, plan.red_amber_s);
+  plan.offset_s = keys.Number("offset_s");
+  plan.amber_s = keys.Number("amber_s");
+  plan.all_red_s = keys.Number("all_red_s");
+  plan.red_amber_s = keys.Number("red_amber_s");
   if (plan.red_amber_s > plan.amber_s + plan.all_red_s)
     map.Problem("red_amber_s", "config.wrong_order", "'red_amber_s' is longer than 'amber_s' and 'all_red_s' together");
-  const config::List phases = map.Items("phases");
+  const config::DeclaredList phases = keys.Items("phases");
   for (std::size_t i = 0; i < phases.size(); ++i) {
-    const config::Map item = phases.At(i);
+    const config::DeclaredMap item = phases.At(i);
     Phase phase;
-    phase.place = item.Place();
-    phase.green_s = item.Number("for_s", {1.0, 600.0});
-    const config::List green = item.Items("green");
+    phase.place = item.map().Place();
+    phase.green_s = item.Number("for_s");
+    const config::DeclaredList green = item.Items("green");
     for (std::size_t k = 0; k < green.size(); ++k) {
       phase.green.push_back(green.Text(k));
       if (std::count(phase.green.begin(), phase.green.end(), phase.green.back()) > 1)
-        green.Problem(k, "config.duplicate_name", fmt::format("'{}' is named twice", phase.green.back()));
+        green.list().Problem(k, "config.duplicate_name", fmt::format("'{}' is named twice", phase.green.back()));
     }
     plan.phases.push_back(std::move(phase));
   }
   if (plan.phases.empty() && map.Has("phases"))
-    map.Problem("phases", "config.too_few", "there is no phase; one or more were expected");
+    map.Problem("phases", "config.too_few", "'phases' is empty; one or more were expected");
   for (const std::string& name : plan.Names()) {
     if (Begins(plan, name) > 1)
       map.Problem(

@@ -31,7 +31,7 @@ struct LightPlan {
   std::vector<std::string> Names() const;  // each once, in the order of the phases
 };
 
-// Reads `offset_s`, `amber_s`, `all_red_s`, `red_amber_s` and `phases: [{green: [NAME, …], for_s}]`. A name that is
+// Reads a mapping of the keys LightPlanKeys. A name that is
 // green, waits, and is green again in one cycle is a problem, as is a red with amber longer than amber and red for all.
 LightPlan ReadLightPlan(const config::Map& map);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/world/road/world_schema.hpp"
 
-#include <limits>
+#include <utility>
 
+#include "common/world/design/design_schema.hpp"
 #include "common/world/road/hills.hpp"
 #include "common/world/road/world_spec.hpp"
 #include "common/world/weather/weather_schema.hpp"
@@ -15,7 +16,6 @@ using config::Key;
 using config::MappingKey;
 using config::NumberKey;
 using config::OptionalNumberKey;
-using config::OtherKey;
 using config::Range;
 using config::Required;
 using config::RequiredNumberKey;
@@ -56,29 +56,21 @@ std::vector<Key> StartKeys() {
           NumberKey("heading_deg", {-360.0, 360.0}, 0.0, "Heading at this place, from east to north.")};
 }
 
-Key ListOfRoads(const char* name, const char* form, const char* meaning) { return OtherKey(name, form, "[]", meaning); }
-
 config::Schema MakeWorldSchema() {
+  std::vector<Key> keys{
+      config::RequiredTextKey("name", "w", "Name, for the reader."),
+      config::TextKey("description", "", "Description, for the reader."),
+      MappingKey("friction", FrictionKeys(), "Friction of the surfaces."),
+      MappingKey("terrain", TerrainKeys(), "Elevation file or hills; one of `terrain`, `ground`, `network`."),
+      MappingKey("ground", PlaneKeys(), "A plane without end."),
+      MappingKey("network", {config::RequiredTextKey("file", "street.xodr", "OpenDRIVE file.")},
+                 "Roads of an OpenDRIVE file."),
+      MappingKey("start", StartKeys(), "Where vehicles start."),
+      config::Summarised("as in scenario files",
+                         MappingKey("weather", weather::StandingWeatherKeys(), "Weather of runs on this world."))};
+  keys.insert(keys.end(), design::DesignKeys().begin(), design::DesignKeys().end());
   return {"world", "world/2", "A world: ground, roads, objects, weather.",
-          config::FileKeys(
-              "world/2",
-              {config::RequiredTextKey("name", "w", "Name, for the reader."),
-               config::TextKey("description", "", "Description, for the reader."),
-               MappingKey("friction", FrictionKeys(), "Friction of the surfaces."),
-               MappingKey("terrain", TerrainKeys(), "Elevation file or hills; one of `terrain`, `ground`, `network`."),
-               MappingKey("ground", PlaneKeys(), "A plane without end."),
-               MappingKey("network", {config::RequiredTextKey("file", "street.xodr", "OpenDRIVE file.")},
-                          "Roads of an OpenDRIVE file."),
-               MappingKey("start", StartKeys(), "Where vehicles start."),
-               config::Summarised("as in scenario files", MappingKey("weather", weather::StandingWeatherKeys(),
-                                                                     "Weather of runs on this world.")),
-               config::WordKey("rule", {"right", "left"}, "right", "Side of traffic."),
-               ListOfRoads("include", "a list of files", "Files with roads, relative to this one."),
-               OtherKey("materials", "NAME: keys of a material", "{}", "Materials."),
-               OtherKey("templates", "NAME: a cross-section", "{}", "Cross-sections."),
-               ListOfRoads("roads", "a list of roads", "Roads."),
-               ListOfRoads("junctions", "a list of junctions", "Junctions."),
-               ListOfRoads("objects", "a list of objects", "Objects at no road.")})};
+          config::FileKeys("world/2", std::move(keys))};
 }
 
 }  // namespace
@@ -118,8 +110,7 @@ const std::vector<Key>& HillsKeys() {
       NumberKey("below_m", {-50.0, 50.0}, 0.0, "Terrain below the axis of a road."),
       NumberKey("flat_m", {0.1, 10'000.0}, 15.0, "Up to here from an axis the terrain is level with the road."),
       NumberKey("full_m", {0.2, 100'000.0}, 200.0, "From here on the hills have full height; over `flat_m`."),
-      ComputedNumberKey("reach_m", {0.2, 1e6}, "three times `full_m`",
-                        "From here on a road changes no bit."),
+      ComputedNumberKey("reach_m", {0.2, 1e6}, "three times `full_m`", "From here on a road changes no bit."),
       config::FlagKey("follow_structures", true, "Hills follow bridges and tunnels, too."),
       Required(config::ListKey(
           "relief",

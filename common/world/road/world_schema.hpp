@@ -7,7 +7,7 @@
 
 namespace rodeira::road {
 
-// The keys of `rodeira: world/2`. Roads, junctions, templates and materials have readers of their own.
+// The keys of `rodeira: world/2`.
 const config::Schema& WorldSchema();
 
 // The keys of each part.

@@ -17,6 +17,7 @@
 #include "common/vehicle/input_devices/keyboard_schema.hpp"
 #include "common/vehicle/input_devices/wheel_schema.hpp"
 #include "common/vehicle/multibody/mechanism_schema.hpp"
+#include "common/world/design/design_schema.hpp"
 #include "common/world/road/world_schema.hpp"
 
 namespace rodeira::cli {
@@ -35,7 +36,12 @@ const std::vector<const config::Schema*>& AllSchemas() {
                                                          &dynamics::FmuSchema(),
                                                          &dynamics::LibrarySchema(),
                                                          &input_devices::WheelSchema(),
-                                                         &road::WorldSchema()};
+                                                         &road::WorldSchema(),
+                                                         &design::IncludeSchema(),
+                                                         &design::JunctionSchema(),
+                                                         &design::ObjectSchema(),
+                                                         &design::RoadSchema(),
+                                                         &design::SectionSchema()};
   return all;
 }
 
@@ -43,7 +49,7 @@ const std::vector<const config::Schema*>& AllSchemas() {
 
 int PrintSchema(const SchemaOptions& options) {
   if (options.kind.empty()) {
-    for (const config::Schema* schema : AllSchemas()) fmt::print("{:<12} {}\n", schema->kind, schema->meaning);
+    for (const config::Schema* schema : AllSchemas()) fmt::print("{:<17} {}\n", schema->kind, schema->meaning);
     return 0;
   }
   std::vector<std::string> kinds;

@@ -147,7 +147,7 @@ TEST_F(ToldOnce, LightsWithoutPhasesHaveALine) {
   EXPECT_THAT(Problems(Lit("control: lights, lights: {amber_s: 3}")),
               ElementsAre("w.yaml:15: key 'junctions[0].lights.phases' is missing; a list was expected"));
   EXPECT_THAT(Problems(Lit("control: lights, lights: {phases: []}")),
-              ElementsAre("w.yaml:15: there is no phase; one or more were expected"));
+              ElementsAre("w.yaml:15: 'phases' is empty; one or more were expected"));
   EXPECT_THAT(
       Problems(Lit("control: lights, lights: {phases: [{green: [main], for_s: 9}, {green: [cros], for_s: 9}]}")),
       ElementsAre("w.yaml:15: no road 'cros' meets junction 'j'; did you mean 'cross'?"));
