@@ -99,12 +99,17 @@ class Gate {
 
 // The car that an event names is one that hears of it.
 base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::string>& vehicles) {
-  const auto place = scenario::ParsePlace(event.argument);
-  const auto gust = scenario::ParseGust(event.argument);
-  const bool is_gust = event.name == scenario::kVehicleGust;
-  if (is_gust && !gust) return gust.error();
-  if (!is_gust && !place) return place.error();
-  const std::string& vehicle = is_gust ? gust.value().vehicle : place.value().vehicle;
+  std::string vehicle;
+  const auto read = [&](const auto& parsed) -> base::Status {
+    if (!parsed) return parsed.error();
+    vehicle = parsed.value().vehicle;
+    return {};
+  };
+  const base::Status known = event.name == scenario::kVehicleGust ? read(scenario::ParseGust(event.argument))
+                             : event.name == scenario::kVehicleTyrePressure
+                                 ? read(scenario::ParseTyre(event.argument))
+                                 : read(scenario::ParsePlace(event.argument));
+  if (!known) return known;
   if (std::find(vehicles.begin(), vehicles.end(), vehicle) != vehicles.end()) return {};
   return base::WrongInput("launch.not_wired", fmt::format("no vehicle '{}' is wired to this scenario{}", vehicle,
                                                           base::DidYouMean(vehicle, vehicles)));

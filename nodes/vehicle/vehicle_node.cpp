@@ -22,6 +22,7 @@
 #include "nodes/vehicle/collisions.hpp"
 #include "nodes/vehicle/gust.hpp"
 #include "nodes/vehicle/obstacle_map.hpp"
+#include "nodes/vehicle/tyre_pressures.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -66,6 +67,7 @@ class VehicleNode final : public lockstep::Node {
       push.moment_WB_W += wind.moment_WB_W;
     }
     if (collisions_ || push.any()) model_->SetPush(push);
+    if (pressures_.changed()) model_->SetTyrePressures(pressures_.Step(step.dt_s));
     if (inbox.Has(topics::kWeatherState)) {
       const auto weather = idl::Decode<msg::WeatherState>(*inbox.Latest(topics::kWeatherState).payload);
       if (!weather) return weather.error();
@@ -90,18 +92,20 @@ class VehicleNode final : public lockstep::Node {
   void Save(base::StateWriter& out) const override {
     out.Put("model", *model_);
     out.Put("gust", gust_);
+    out.Put("pressures", pressures_);
     if (collisions_) out.Put("collisions", *collisions_);
   }
   void Restore(base::StateReader& in) override {
     in.Get("model", *model_);
     in.Get("gust", gust_);
+    in.Get("pressures", pressures_);
     if (collisions_) in.Get("collisions", *collisions_);
   }
   bool can_save() const override { return model_->can_save(); }
 
  private:
-  // A gust begins. Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand
-  // is told; then it stays as it is.
+  // A gust begins; a tyre loses pressure. Where a scenario places this car, INI there: at rest, in equilibrium. A place
+  // where it cannot stand is told; then it stays as it is.
   base::Status Obey(const lockstep::Inbox& inbox) {
     if (!inbox.Has(topics::kScenarioEvents)) return {};
     for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
@@ -119,6 +123,10 @@ class VehicleNode final : public lockstep::Node {
           const auto gust = scenario::ParseGust(event.argument());
           if (!gust) return placed(gust.error());
           if (gust.value().vehicle == name_) BeginGust(gust.value(), event.value());
+        } else if (event.name() == scenario::kVehicleTyrePressure) {
+          const auto tyre = scenario::ParseTyre(event.argument());
+          if (!tyre) return placed(tyre.error());
+          if (tyre.value().vehicle == name_) ChangePressure(tyre.value(), event.value());
         }
       }
     }
@@ -129,6 +137,11 @@ class VehicleNode final : public lockstep::Node {
       base::Log(base::LogLevel::kWarning, name_,
                 "the vehicle model takes no forces from outside: wind does not move it");
     gust_.Begin(gust, peak_mps);
+  }
+  void ChangePressure(const scenario::TyreChoice& tyre, double share) {
+    if (!model_->has_tyre_pressures())
+      base::Log(base::LogLevel::kWarning, name_, "the vehicle model has no tyre pressures: their change does nothing");
+    pressures_.Change(tyre, share);
   }
   void Place(const scenario::PlaceChoice& place, double heading_deg) {
     dynamics::InitialCondition there;
@@ -155,6 +168,7 @@ class VehicleNode final : public lockstep::Node {
   weather::WetGround ground_;             // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nothing
   Gust gust_;
+  TyrePressures pressures_;
 };
 
 // The world that the road server has too: what its files answer in this process are the server's bits. `without`: the

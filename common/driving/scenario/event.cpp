@@ -28,6 +28,7 @@ constexpr std::array kKinds = std::to_array<EventKind>({
     {kTrafficPedestrian, "crossing", ArgumentKind::kCrossing, "", 0.0, 0.0},
     {kVehiclePlace, "place", ArgumentKind::kPlace, "heading_deg", -360.0, 360.0},
     {kVehicleGust, "gust", ArgumentKind::kGust, "speed_mps", 0.0, 60.0},
+    {kVehicleTyrePressure, "tyre", ArgumentKind::kTyre, "pressure_share", 0.0, 1.5},
     {kWeatherChange, "becomes", ArgumentKind::kWeather, "over_s", 0.0, 3600.0},
 });
 
@@ -151,6 +152,22 @@ base::Result<GustChoice> ParseGust(std::string_view text) {
                   text.substr(0, 60)));
 }
 
+base::Result<TyreChoice> ParseTyre(std::string_view text) {
+  static const std::vector<std::string> kTyres{"front_left", "front_right", "rear_left", "rear_right"};
+  const auto words = WordsOf(text);
+  if (words.size() == 3 && !words[0].empty()) {
+    const auto wheel = std::find(kTyres.begin(), kTyres.end(), words[1]);
+    const auto seconds = NumberIn(words[2]);
+    if (wheel != kTyres.end() && seconds && *seconds >= 0.0 && *seconds <= 3600.0)
+      return TyreChoice{std::string(words[0]), static_cast<std::size_t>(wheel - kTyres.begin()), *seconds};
+  }
+  return base::WrongInput(
+      "scenario.wrong_text",
+      fmt::format("'{}' is no tyre; the name of a vehicle node, front_left, front_right, rear_left or rear_right, and "
+                  "seconds (0 to 3600) were expected, as in 'ego front_left 0.5'{}",
+                  text.substr(0, 60), words.size() < 2 ? "" : base::DidYouMean(std::string(words[1]), kTyres)));
+}
+
 base::Result<CrossingChoice> ParseCrossing(std::string_view text) {
   auto words = WordsOf(text);
   CrossingChoice crossing;
@@ -189,6 +206,8 @@ base::Status CheckEvent(const Event& event) {
     if (const auto place = ParsePlace(event.argument); !place) return place.error();
   } else if (kind->argument == ArgumentKind::kGust) {
     if (const auto gust = ParseGust(event.argument); !gust) return gust.error();
+  } else if (kind->argument == ArgumentKind::kTyre) {
+    if (const auto tyre = ParseTyre(event.argument); !tyre) return tyre.error();
   } else if (kind->argument == ArgumentKind::kWeather) {
     if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -23,6 +24,7 @@ inline constexpr std::string_view kTrafficAppear = "traffic.appear";  // a vehic
 inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // a pedestrian comes to a crossing
 inline constexpr std::string_view kVehiclePlace = "vehicle.place";  // a driver's car stands elsewhere: INI there
 inline constexpr std::string_view kVehicleGust = "vehicle.gust";    // wind across a driver's car, for a while
+inline constexpr std::string_view kVehicleTyrePressure = "vehicle.tyre_pressure";  // a tyre loses or gains pressure
 inline constexpr std::string_view kWeatherChange = "weather";  // becomes one that has a name, within so many seconds
 
 // As on the wire (idl/scenario.idl).
@@ -32,7 +34,7 @@ struct Event {
   double value = 0.0;
 };
 
-enum class ArgumentKind { kText, kAgent, kAgentOnLane, kPlace, kGust, kWeather, kCrossing };
+enum class ArgumentKind { kText, kAgent, kAgentOnLane, kPlace, kGust, kTyre, kWeather, kCrossing };
 enum class ValueKind { kNumber, kSide };  // a side: `left` is 1, `right` -1
 
 // What a kind of event is told, and under which keys a person writes it.
@@ -82,6 +84,14 @@ struct GustChoice {
   double for_s = 0.0;  // over 0
 };
 base::Result<GustChoice> ParseGust(std::string_view text);
+
+// A tyre of a car, and in how many seconds its pressure changes: "ego front_left 0.5".
+struct TyreChoice {
+  std::string vehicle;
+  std::size_t wheel = 0;  // front left, front right, rear left, rear right
+  double over_s = 0.0;
+};
+base::Result<TyreChoice> ParseTyre(std::string_view text);
 
 // The crossing of a road nearest to a station, and from which side of the road a pedestrian comes: "main 120", "main
 // 120 left"; right where no side is said.

@@ -54,6 +54,7 @@ std::vector<config::Key> EventKeys() {
                       "Vehicle, metres east and north, height if a level is meant."),
       ComputedTextKey("gust", "with vehicle.gust", "ego 90 1.5",
                       "Vehicle, from where in degrees (0 east, 90 north), seconds."),
+      ComputedTextKey("tyre", "with vehicle.tyre_pressure", "ego front_left 0.5", "Vehicle, tyre, seconds."),
       ComputedTextKey("becomes", "with weather", "rain", "`fine`, `overcast`, `rain`, `fog`, `dusk` or `night`."),
       ValueKey("deceleration_mps2", "traffic.brake", "Deceleration."),
       ValueKey("speed_mps", "traffic.speed, traffic.appear, vehicle.gust",
@@ -61,6 +62,7 @@ std::vector<config::Key> EventKeys() {
       config::WithDefaultNote("with traffic.change_lane",
                               config::OptionalWordKey("side", {"left", "right"}, "Where to.")),
       ValueKey("heading_deg", "vehicle.place", "Direction, from east to the left."),
+      ValueKey("pressure_share", "vehicle.tyre_pressure", "Of the pressure at the start; 0 is flat."),
       ValueKey("over_s", "weather", "How long the change takes."),
   };
 }

@@ -65,7 +65,7 @@ CornerInput BicycleCar::CornerInputOf(const BicycleChassis& chassis, const Bicyc
   const WheelSettings& tyre = chassis.settings.wheel;
   CornerInput input;
   input.static_load_N = chassis.static_load_N[wheel];
-  input.tyre_Npm = tyre.vertical_Npm;
+  input.tyre_Npm = chassis.tyres[wheel].vertical_share * tyre.vertical_Npm;
   input.free_gap_m = tyre.radius_m - (pose.hub_W[wheel] - w.plane_W).dot(w.normal_W);
   input.lean = std::clamp(pose.up_W.dot(w.normal_W), kMinLean, 1.0);
   input.other_travel_m = wheels[PartnerOf(wheel)].corner.travel_m();
@@ -150,6 +150,7 @@ void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& contr
   for (std::size_t i = 0; i < kWheels; ++i) {
     input.load_N[i] = wheels[i].corner.load_N();
     input.longitudinal_N[i] = findings.contacts[i].forces.longitudinal_N;
+    input.resistance_share[i] = chassis.tyres[i].resistance_share;
     spin_radps[i] = wheels[i].spin_radps;
   }
   findings.torques = dynamics::TurnWheels(chassis.drive(), controls, input, dt_s, powertrain, assists, spin_radps);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/vehicle/dynamics/bicycle_car.hpp"
+#include "common/vehicle/dynamics/tyre_pressure.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
 namespace rodeira::dynamics {
@@ -21,6 +22,10 @@ class BicycleModel final : public VehicleModel {
   void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
+  void SetTyrePressures(const std::array<double, kWheels>& shares) override {
+    for (std::size_t i = 0; i < kWheels; ++i) SetPressure(chassis_.tyres[i], shares[i]);
+  }
+  bool has_tyre_pressures() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return chassis_.settings.dimensions; }
   void Save(base::StateWriter& writer) const override;

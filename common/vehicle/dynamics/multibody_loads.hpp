@@ -32,6 +32,7 @@ class WheelLoad final : public multibody::Load {
     plane_W_ = point_W;
     normal_W_ = normal_W;
   }
+  void SetStiffness(double vertical_Npm) { settings_.vertical_Npm = vertical_Npm; }
   // Forces along and across with the aligning moment, torque of the brake on the wheel about the axle, spin.
   void SetStep(const TyreForces& forces, double brake_on_wheel_Nm, double spin_radps);
   // INI, until SetStep: stiff springs hold the hub over this point, beside the forces that are set; locked, or free to

@@ -7,6 +7,7 @@
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
+#include "common/vehicle/dynamics/tyre_pressure.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -172,6 +173,7 @@ WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::arr
   std::array<double, kWheels> spin_radps{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     input.longitudinal_N[i] = forces[i].longitudinal_N;
+    input.resistance_share[i] = tyres_[i].resistance_share;
     spin_radps[i] = wheels_[i].spin_radps;
   }
   if (settings_.assists.any()) {
@@ -186,12 +188,20 @@ WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::arr
   WheelTorques torques = dynamics::TurnWheels(drive, controls, input, dt_s, powertrain_, assists_, spin_radps);
   // The brake's share of the friction that acted: the rest is rolling resistance.
   for (std::size_t i = 0; i < kWheels; ++i) {
-    const double rolling_Nm = settings_.wheel.rolling_resistance * loads_N[i] * settings_.wheel.rolling_radius_m;
+    const double rolling_Nm =
+        settings_.wheel.rolling_resistance * tyres_[i].resistance_share * loads_N[i] * settings_.wheel.rolling_radius_m;
     const double most_Nm = torques.brake_Nm[i] + rolling_Nm;
     torques.friction_Nm[i] *= most_Nm > 0.0 ? torques.brake_Nm[i] / most_Nm : 0.0;
     wheels_[i].spin_radps = spin_radps[i];
   }
   return torques;
+}
+
+void MultibodyModel::SetTyrePressures(const std::array<double, kWheels>& shares) {
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    SetPressure(tyres_[i], shares[i]);
+    wheels_[i].load->SetStiffness(tyres_[i].vertical_share * settings_.wheel.vertical_Npm);
+  }
 }
 
 // The wheels turn under the forces of the step's middle; the mechanism, with a rule that takes the mean of both ends,

@@ -35,6 +35,8 @@ class MultibodyModel final : public VehicleModel {
   void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
+  void SetTyrePressures(const std::array<double, kWheels>& shares) override;
+  bool has_tyre_pressures() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   std::vector<std::string> output_names() const override;

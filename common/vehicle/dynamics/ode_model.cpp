@@ -64,8 +64,9 @@ OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
   const double pressed = std::min(contact.deflection_m, kMaxTyreDeflection * tyre.radius_m);
   if (pressed > 0.0) {
     const double closing = -hub.v_WG_W.dot(w.normal_W) / contact.lean;
-    contact.load_N = std::clamp(tyre.vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0,
-                                tyre.vertical_Npm * kMaxTyreDeflection * tyre.radius_m);
+    const double vertical_Npm = tyres_[wheel].vertical_share * tyre.vertical_Npm;
+    contact.load_N = std::clamp(vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0,
+                                vertical_Npm * kMaxTyreDeflection * tyre.radius_m);
   }
   return contact;
 }
@@ -148,6 +149,7 @@ WheelTorques OdeModel::TurnWheels(const Controls& controls, const Contacts& cont
   for (std::size_t i = 0; i < kWheels; ++i) {
     input.load_N[i] = contacts[i].load_N;
     input.longitudinal_N[i] = contacts[i].forces.longitudinal_N;
+    input.resistance_share[i] = tyres_[i].resistance_share;
     spin_radps[i] = now_.wheels[i].spin_radps;
   }
   const WheelDriveSettings drive{car.wheel, car.brakes, car.powertrain, car.assists, assist_car_};

@@ -9,6 +9,7 @@
 #include "common/vehicle/dynamics/ode_settings.hpp"
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
+#include "common/vehicle/dynamics/tyre_pressure.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel_drive.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
@@ -30,6 +31,10 @@ class OdeModel final : public VehicleModel {
   void Step(const Controls& controls, ground::Ground& ground, double dt_s) override;
   void SetPush(const Wrench& push) override { push_ = push; }
   bool can_be_pushed() const override { return true; }
+  void SetTyrePressures(const std::array<double, kWheels>& shares) override {
+    for (std::size_t i = 0; i < kWheels; ++i) SetPressure(tyres_[i], shares[i]);
+  }
+  bool has_tyre_pressures() const override { return true; }
   const VehicleState& state() const override { return state_; }
   const VehicleDimensions& dimensions() const override { return settings_.car.dimensions; }
   void Save(base::StateWriter& writer) const override;

@@ -32,6 +32,13 @@ double SlipBound(double peak_N, double stiffness_N, double motion_mps, double lo
   return reach * peak_N / std::max(stiffness_N, kTiny_N);
 }
 
+// The slip at which a tyre of full pressure has the same forces.
+TyreSlip AtPressure(const TyreSettings& tyre, TyreSlip slip) {
+  slip.kappa *= tyre.slip_share;
+  slip.tan_alpha *= tyre.slip_share;
+  return slip;
+}
+
 }  // namespace
 
 std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles) {
@@ -43,19 +50,21 @@ std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles) {
   return wheels;
 }
 
-TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& of, double load_N, double friction) {
+  const TyreSlip slip = AtPressure(tyre, of);
   if (tyre.model) return tyre.model->Forces(slip, load_N, friction);
   return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction)
                          : SteadyForces(tyre.formula, slip, load_N, friction);
 }
 double LongitudinalStiffness(const TyreSettings& tyre, double load_N) {
-  if (tyre.model) return tyre.model->LongitudinalStiffness(load_N);
-  return tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N)
-                         : LongitudinalStiffness(tyre.formula, load_N);
+  if (tyre.model) return tyre.slip_share * tyre.model->LongitudinalStiffness(load_N);
+  return tyre.slip_share * (tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N)
+                                            : LongitudinalStiffness(tyre.formula, load_N));
 }
 double CorneringStiffness(const TyreSettings& tyre, double load_N) {
-  if (tyre.model) return tyre.model->CorneringStiffness(load_N);
-  return tyre.slip_curve ? CorneringStiffness(*tyre.slip_curve, load_N) : CorneringStiffness(tyre.formula, load_N);
+  if (tyre.model) return tyre.slip_share * tyre.model->CorneringStiffness(load_N);
+  return tyre.slip_share *
+         (tyre.slip_curve ? CorneringStiffness(*tyre.slip_curve, load_N) : CorneringStiffness(tyre.formula, load_N));
 }
 double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction) {
   if (tyre.model) return tyre.model->LongitudinalPeak(load_N, friction);
@@ -70,13 +79,14 @@ double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
 
 TyreForces SteadyForcesWithMoment(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
   if (tyre.aligning && !tyre.model && !tyre.slip_curve)
-    return SteadyForcesWithMoment(tyre.formula, *tyre.aligning, slip, load_N, friction);
+    return SteadyForcesWithMoment(tyre.formula, *tyre.aligning, AtPressure(tyre, slip), load_N, friction);
   TyreForces forces = SteadyForces(tyre, slip, load_N, friction);
   if (!(load_N > 0.0) || !(friction > 0.0)) return forces;
   if (tyre.aligning) {
     const double ratio = LongitudinalStiffness(tyre, load_N) / std::max(CorneringStiffness(tyre, load_N), kTiny_N);
     forces.aligning_Nm =
-        -PneumaticTrail(tyre.formula, *tyre.aligning, slip, ratio, load_N, friction) * forces.lateral_N;
+        -PneumaticTrail(tyre.formula, *tyre.aligning, AtPressure(tyre, slip), ratio, load_N, friction) *
+        forces.lateral_N;
   } else if (tyre.pneumatic_trail_m > 0.0) {
     const double peak_N = LateralPeak(tyre, load_N, friction);
     const double sliding =

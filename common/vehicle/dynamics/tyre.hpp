@@ -23,7 +23,13 @@ struct TyreSettings {
   double relaxation_lateral_m = 0.4;       // sigma_alpha
   double low_speed_mps = 2.5;  // below it the damping fades in and the deflection is held to what friction bears
   double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
+  // By the pressure (tyre_pressure.hpp): of the wheel's vertical stiffness and rolling resistance, and of the stiffness
+  // along and across, by which each slip counts less.
+  double vertical_share = 1.0;
+  double resistance_share = 1.0;
+  double slip_share = 1.0;
 };
+inline constexpr double kMostPressureShare = 1.5;
 
 // The tyres of the axles on their wheels, in the order of WheelIndex: one that was measured on the other side of a car
 // is mirrored.

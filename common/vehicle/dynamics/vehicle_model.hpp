@@ -101,6 +101,14 @@ class VehicleModel {
   /// @return true if it does
   virtual bool can_be_pushed() const { return false; }
 
+  /// Sets the pressures of the tyres from the next step on. They are no part of the state: after Restore the caller
+  /// sets them again. A model without tyres ignores them.
+  /// @param shares of each tyre: of the pressure that the vehicle file is for, 0 (flat) to 1.5
+  virtual void SetTyrePressures([[maybe_unused]] const std::array<double, kWheels>& shares) {}
+  /// Says whether the model uses SetTyrePressures.
+  /// @return true if it does
+  virtual bool has_tyre_pressures() const { return false; }
+
   /// Gives the state after the last Step or Initialise.
   /// @return the state; the reference stays valid as long as the model
   virtual const VehicleState& state() const = 0;

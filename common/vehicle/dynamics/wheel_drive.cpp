@@ -43,7 +43,8 @@ WheelTorques TurnWheels(const WheelDriveSettings& settings, const Controls& want
   std::array<double, kWheels> friction{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     road[i] = -radius * in.longitudinal_N[i];
-    friction[i] = torques.brake_Nm[i] + settings.wheel.rolling_resistance * in.load_N[i] * radius;
+    friction[i] =
+        torques.brake_Nm[i] + settings.wheel.rolling_resistance * in.resistance_share[i] * in.load_N[i] * radius;
   }
   PowertrainInput input;
   input.wheel_inertia_kgm2 = settings.wheel.inertia_kgm2;

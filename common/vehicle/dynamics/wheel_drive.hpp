@@ -22,9 +22,10 @@ struct WheelDriveSettings {
 // What the car around them tells the wheels at the beginning of a step.
 struct WheelDriveInput {
   std::array<double, kWheels> load_N{};
-  std::array<double, kWheels> longitudinal_N{};  // of the tyres
-  double speed_mps = 0.0;                        // of the car, forward
-  double forward_mps2 = 0.0;                     // of the last step, along and across the body
+  std::array<double, kWheels> longitudinal_N{};                      // of the tyres
+  std::array<double, kWheels> resistance_share{1.0, 1.0, 1.0, 1.0};  // of the rolling resistance, by the pressure
+  double speed_mps = 0.0;                                            // of the car, forward
+  double forward_mps2 = 0.0;                                         // of the last step, along and across the body
   double lateral_mps2 = 0.0;
   double yaw_rate_radps = 0.0;
   double front_wheel_rad = 0.0;  // mean steer angle

@@ -242,36 +242,44 @@ TEST_F(Requests, AScenarioFilePlacesACarToo) {
   EXPECT_TRUE(verdict.value().substituted.empty());
 }
 
-// A gust from the north moves the car to the south of where it is without one; computed again, from a snapshot within
-// it too, it is the same.
-TEST_F(Requests, AScenarioFileLetsAGustMeetACar) {
-  const auto write = [&](const std::string& car) {
-    const auto path = folder_.path() / "gust.yaml";
-    EXPECT_TRUE(base::WriteWhole(path, std::string_view("rodeira: scenario/1\nevents:\n  - {at_s: 0.5, name: "
-                                                        "vehicle.gust, gust: " +
-                                                        car + " 90 0.6, speed_mps: 50}\n"))
-                    .ok());
+// A gust from the north and a flat tyre move the car away from where it is without them; computed again, from a
+// snapshot after they began too, it is the same.
+TEST_F(Requests, AScenarioFileLetsWindAndAFlatTyreMeetACar) {
+  const auto write = [&](const std::string& event) {
+    const auto path = folder_.path() / "event.yaml";
+    EXPECT_TRUE(
+        base::WriteWhole(path, std::string_view("rodeira: scenario/1\nevents:\n  - {at_s: 0.5, " + event + "}\n"))
+            .ok());
     return LaunchOf("{scenario: \"" + path.string() + "\"}");
   };
-  const Driven calm = Drive(LaunchOf("{requests: true}"), 1500, {}), run = Drive(write("ego"), 1500, {});
-  const auto moved = [&](Step step) {
-    return run.car.at(step).position_w_m().y() - calm.car.at(step).position_w_m().y();
-  };
-  EXPECT_EQ(moved(500), 0.0);
-  EXPECT_LT(moved(800), -1e-4) << "at its peak";
-  EXPECT_LT(moved(1400), moved(800));
-  const auto recorded = replay::RecordedRun::Open(File());
-  ASSERT_TRUE(recorded.ok()) << recorded.error().Text();
-  for (const Step from : {0, 1000}) {
-    const auto verdict = cli::Verify(recorded.value(), from);
-    ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
-    EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
-    EXPECT_TRUE(verdict.value().substituted.empty());
+  const Driven calm = Drive(LaunchOf("{requests: true}"), 1500, {});
+  for (const std::string event : {"name: vehicle.gust, gust: ego 90 0.6, speed_mps: 50",
+                                  "name: vehicle.tyre_pressure, tyre: ego front_left 0.2, pressure_share: 0"}) {
+    SCOPED_TRACE(event);
+    const Driven run = Drive(write(event), 1500, {});
+    const auto moved = [&](Step step) {
+      const auto &with = run.car.at(step).position_w_m(), &without = calm.car.at(step).position_w_m();
+      return std::hypot(with.x() - without.x(), with.y() - without.y(), with.z() - without.z());
+    };
+    EXPECT_EQ(moved(500), 0.0);
+    EXPECT_GT(moved(800), 1e-4);
+    EXPECT_GT(moved(1400), moved(800));
+    const auto recorded = replay::RecordedRun::Open(File());
+    ASSERT_TRUE(recorded.ok()) << recorded.error().Text();
+    for (const Step from : {0, 1000}) {
+      const auto verdict = cli::Verify(recorded.value(), from);
+      ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
+      EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+      EXPECT_TRUE(verdict.value().substituted.empty());
+    }
   }
-  const auto nowhere = cli::LocalNodes::Make(write("egg"), {}, nullptr);
-  ASSERT_FALSE(nowhere.ok());
-  EXPECT_EQ(nowhere.error().id.text(), "launch.not_wired");
-  EXPECT_EQ(nowhere.error().exit_status(), 2);
+  for (const std::string event : {"name: vehicle.gust, gust: egg 90 0.6, speed_mps: 50",
+                                  "name: vehicle.tyre_pressure, tyre: egg front_left 0.2, pressure_share: 0"}) {
+    const auto nowhere = cli::LocalNodes::Make(write(event), {}, nullptr);
+    ASSERT_FALSE(nowhere.ok()) << event;
+    EXPECT_EQ(nowhere.error().id.text(), "launch.not_wired");
+    EXPECT_EQ(nowhere.error().exit_status(), 2);
+  }
 }
 
 // As docs/reference/view.md says: which files take requests, which are the same each time, and what is to be set for

@@ -49,6 +49,22 @@ TEST(Event, AGustIsACarADirectionAndSeconds) {
   EXPECT_EQ(CheckEvent({"vehicle.gust", "ego 90 1.5", 61.0}).error().id.text(), "scenario.wrong_value");
 }
 
+TEST(Event, ATyreIsACarAWheelAndSeconds) {
+  const auto tyre = ParseTyre("ego rear_left 0.5");
+  ASSERT_TRUE(tyre.ok());
+  EXPECT_EQ(tyre.value().vehicle, "ego");
+  EXPECT_EQ(tyre.value().wheel, 2u);
+  EXPECT_EQ(tyre.value().over_s, 0.5);
+  for (const char* text : {"", "ego", "ego rear_left", "ego rear 1", "ego rear_left -1", "ego rear_left nan",
+                           "ego rear_left 1 2", " rear_left 1", "ego rear_left 4000"}) {
+    ASSERT_FALSE(ParseTyre(text).ok()) << text;
+    EXPECT_EQ(CheckEvent({"vehicle.tyre_pressure", text, 0.5}).error().id.text(), "scenario.wrong_text") << text;
+  }
+  EXPECT_NE(ParseTyre("ego rear_lef 1").error().message.find("did you mean 'rear_left'"), std::string::npos);
+  EXPECT_TRUE(CheckEvent({"vehicle.tyre_pressure", "ego rear_left 0", 0.0}));
+  EXPECT_EQ(CheckEvent({"vehicle.tyre_pressure", "ego rear_left 0", 1.6}).error().id.text(), "scenario.wrong_value");
+}
+
 TEST(Event, ACrossingIsARoadAPlaceAndASide) {
   const auto right = ParseCrossing("main 120.5"), left = ParseCrossing("long road 3 left");
   ASSERT_TRUE(right.ok() && left.ok());
