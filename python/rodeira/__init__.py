@@ -9,6 +9,12 @@
 `rodeira.measures`, `rodeira.World` and `rodeira.run` need more than NumPy (docs/reference/python.md).
 """
 
+from importlib.util import find_spec as _find_spec
+
+if _find_spec("numpy") is None:
+    raise ImportError("rodeira needs NumPy, which this Python does not have; Debian's package python3-numpy is for "
+                      "/usr/bin/python3")
+
 from .errors import Error, RecordingWarning
 from .functions import Path, correct_changes, mean_deviation, pet, raff_gap, troutbeck_gap
 from .mcap import Attachment

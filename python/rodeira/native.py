@@ -18,5 +18,5 @@ def extension(what: str) -> Any:
             continue
         except ImportError as problem:
             raise Error(f"{what} needs the extension module _rodeira, which cannot be loaded: {problem}") from None
-    raise Error(f"{what} needs the extension module _rodeira; the Debian package python3-rodeira has it, a build of "
-                "Rodeira puts it into build/python")
+    raise Error(f"{what} needs the extension module _rodeira; the Debian package python3-rodeira has it; in the source "
+                "tree, `ninja -C build rodeira_python_extension` puts it into build/python (PYTHONPATH)")

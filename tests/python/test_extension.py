@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -133,6 +134,15 @@ class MeasuresOfTables(unittest.TestCase):
             with self.assertRaises(rodeira.Error) as raised:
                 rodeira.measures(self.table, ["sdlp_m"], columns=columns, time="t")
             self.assertIn(sentence, str(raised.exception))
+
+
+class Packages(unittest.TestCase):
+    def test_without_numpy_the_package_of_debian_is_named(self):
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+        done = subprocess.run([sys.executable, "-S", "-c", "import rodeira"], capture_output=True, text=True,
+                              env=environment)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr.splitlines()[-1], "ImportError: .*python3-numpy")
 
 
 @needs_extension
