@@ -125,7 +125,7 @@ bool MessageFields::Read(std::span<const std::byte> payload, std::span<double> o
   std::size_t at = 0;
   const auto read = [&](const std::vector<Step>& steps, std::span<double> into) {
     for (const Step& step : steps) {
-      at = (at + step.bytes - 1) / step.bytes * step.bytes;
+      at = (at + step.bytes - 1) & ~(step.bytes - 1);  // a power of 2: a division here costs a tenth of all reading
       if (at + step.bytes > body.size()) return false;
       if (step.slot >= 0) into[static_cast<std::size_t>(step.slot)] = PlainAt(step.kind, body.data() + at, swap);
       at += step.bytes;
