@@ -57,7 +57,7 @@ TEST(LightPlan, GreenGoesOnRoundTheEndOfTheCycleAndForEver) {
 
 TEST(LightPlan, RefusesWithASentence) {
   for (const auto& [text, sentence] :
-       {std::pair("phases: []\n", "there is no phase"), std::pair("phases:\n- {green: [a], for_s: 0}\n", "for_s"),
+       {std::pair("phases: []\n", "'phases' is empty"), std::pair("phases:\n- {green: [a], for_s: 0}\n", "for_s"),
         std::pair("phases:\n- {green: [a], for_s: 5}\n- {green: [b], for_s: 5}\n- {green: [a], for_s: 5}\n- {green: "
                   "[b], for_s: 5}\n",
                   "'a' becomes green more than once in a cycle"),
