@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/core/base/file_cache.hpp"
 #include "common/core/config/config.hpp"
+#include "common/world/road/kept_world.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/world.hpp"
@@ -19,6 +20,7 @@ base::Result<std::shared_ptr<const World>> Build(const base::Result<config::File
 }  // namespace
 
 base::Result<std::shared_ptr<const World>> World::Load(const std::filesystem::path& world_yaml) {
+  if (auto kept = KeptWorld::Find(world_yaml)) return kept;
   if (auto other = WhatWorldsName(world_yaml)) return *std::move(other);
   const bool is_map = IsTrafficMap(world_yaml);
   if (!is_map && !IsOpenDrive(world_yaml)) return Build(config::File::Load(world_yaml), &base::UserCache());
