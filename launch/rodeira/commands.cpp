@@ -44,7 +44,7 @@ int RunCommandLine(int argc, char** argv) {
   for (const auto add :
        {AddRun,      AddWorld,     AddMap,    AddTraffic, AddPolyline, AddSurface, AddMechanism, AddVehicle,
         AddDoctor,   AddJoysticks, AddInput,  AddEdit,    AddCtl,      AddInfo,    AddExport,    AddRepair,
-        AddMeasures, AddReport,    AddSchema, AddReplay,  AddView,     AddShell}) {
+        AddMeasures, AddReport,    AddSchema, AddReplay,  AddView,     AddEnv,     AddShell}) {
     add(app, chosen);
   }
   AddJson(app);

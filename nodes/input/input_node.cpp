@@ -84,9 +84,14 @@ base::Result<std::unique_ptr<Source>> MakePerson(const std::string& device, cons
 }
 
 base::Result<std::unique_ptr<Source>> MakeSource(const config::Map& config, launch::NodeContext& context) {
-  const std::string source = config.Choice("source", {"script", "autopilot", "keyboard", "joystick", "gamepad"});
+  const std::string source =
+      config.Choice("source", {"script", "autopilot", "keyboard", "joystick", "gamepad", "agent"});
   if (source == "autopilot") return MakeAutopilotSource(config, context);
   if (source == "script") return MakeScript(config, context);
+  if (source == "agent")
+    return base::WrongInput("node.no_agent",
+                            "'source: agent' was found, but no agent drives here; rodeira.Env of the Python package "
+                            "starts a run with one");
   auto person = MakePerson(source, config, context);
   if (!person) return person.error();
   return ParkedSource(std::move(person).value());

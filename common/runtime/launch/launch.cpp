@@ -192,8 +192,9 @@ void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNod
 
 bool LaunchNode::is_live() const {
   if (kind->name == "scenario") return takes_requests();
+  static const std::vector<std::string> kLive{"keyboard", "joystick", "gamepad", "agent"};
   const auto source = config->Peek({"config", "source"});
-  return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick" || *source == "gamepad");
+  return kind->name == "input" && source && std::ranges::find(kLive, *source) != kLive.end();
 }
 
 bool LaunchNode::takes_requests() const {

@@ -31,6 +31,7 @@ void AddReport(CLI::App& app, ChosenCommand& chosen);
 void AddSchema(CLI::App& app, ChosenCommand& chosen);
 void AddReplay(CLI::App& app, ChosenCommand& chosen);
 void AddView(CLI::App& app, ChosenCommand& chosen);
+void AddEnv(CLI::App& app, ChosenCommand& chosen);    // for rodeira.Env; not in `rodeira --help`
 void AddShell(CLI::App& app, ChosenCommand& chosen);  // completion, manual
 
 }  // namespace rodeira::cli

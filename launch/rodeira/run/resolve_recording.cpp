@@ -13,9 +13,7 @@
 #include "common/core/config/quoted.hpp"
 
 namespace rodeira::cli {
-namespace {
 
-// The name, or name2, name3 …: what no node of the launch file is called.
 std::string FreeName(const launch::Launch& launch, const std::string& name) {
   std::string free = name;
   const auto is_it = [&free](const launch::LaunchNode& node) { return node.name == free; };
@@ -23,8 +21,6 @@ std::string FreeName(const launch::Launch& launch, const std::string& name) {
   for (int number = 2; taken(); ++number) free = fmt::format("{}{}", name, number);
   return free;
 }
-
-}  // namespace
 
 std::string DatedRecording(const std::string& launch_name) {
   const std::time_t now = std::time(nullptr);

@@ -15,6 +15,9 @@ namespace rodeira::cli {
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options,
                               launch::Overrides& overrides);
 
+// The name, or name2, name3 …: what no node of the launch file is called.
+std::string FreeName(const launch::Launch& launch, const std::string& name);
+
 // A new name among the user's recordings: NAME-DATE-TIME-PROCESS.mcap, distinct for runs that start in one second.
 std::string DatedRecording(const std::string& launch_name);
 

@@ -49,7 +49,7 @@ void Add(const CLI::App& command, const std::string& path, std::vector<CommandEn
   }
   std::stable_partition(entry.options.begin(), entry.options.end(),
                         [](const OptionEntry& option) { return option.is_argument; });
-  const auto inner = command.get_subcommands([](const CLI::App*) { return true; });
+  const auto inner = command.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); });
   for (const CLI::App* child : inner) entry.commands.push_back(child->get_name());
   table.push_back(std::move(entry));
   for (const CLI::App* child : inner) Add(*child, path + " " + child->get_name(), table);
