@@ -48,7 +48,7 @@ def run(launch: str | os.PathLike[str], *, seed: int | None = None, for_s: float
     words += ["--for", repr(float(for_s))] if for_s is not None else []
     for option, pairs in (("--set", set), ("--meta", meta)):
         for key, value in (pairs or {}).items():
-            words += [option, f"{key}={_text(value)}"]
+            words += [option, override(key, value)]
     done = subprocess.run(words, capture_output=True, text=True, errors="backslashreplace", check=False)
     if done.returncode != 0:
         if folder is not None:
@@ -59,6 +59,11 @@ def run(launch: str | os.PathLike[str], *, seed: int | None = None, for_s: float
     if folder is not None:
         weakref.finalize(recording, shutil.rmtree, folder, True)
     return recording
+
+
+def override(key: str, value: object) -> str:
+    """KEY=VALUE as `--set` takes it; None takes the key out."""
+    return f"{key}={_text(value)}"
 
 
 def _text(value: object) -> str:

@@ -47,9 +47,10 @@ class PythonPage(unittest.TestCase):
         return [re.match(r"\w+", word)[0] for word in words if not re.match(r"\w+\[", word)]
 
     def test_each_public_name_has_a_row_and_each_row_a_name(self):
-        for kind in (rodeira.Recording, rodeira.Topic, rodeira.Ragged):
-            with self.subTest(kind.__name__):
-                names = self.names(kind.__name__)
+        for heading, kind in (("Recording", rodeira.Recording), ("Topic", rodeira.Topic), ("Ragged", rodeira.Ragged),
+                              ("Agents", rodeira.Samples)):
+            with self.subTest(heading):
+                names = self.names(heading)
                 self.assertEqual(set(names), public(kind))
                 self.assertEqual(len(names), len(set(names)))
 
