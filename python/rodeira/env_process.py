@@ -10,7 +10,7 @@ import subprocess
 import time
 import weakref
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from .errors import Error
 from .running import program
@@ -65,7 +65,11 @@ class EnvProcess:
         self._poll = select.poll()
         self._poll.register(self._from, select.POLLIN)
         self.close = weakref.finalize(self, _end, self._process)
-        self.hello = self._answer("H")
+        try:
+            self.hello = self._answer("H")
+        except BaseException:
+            self.close()
+            raise
 
     @property
     def is_open(self) -> bool:
@@ -77,9 +81,14 @@ class EnvProcess:
             raise Error("the environment is closed")
         try:
             os.write(self._to, struct.pack("<Ic", len(content) + 1, kind.encode()) + content)
+            return self._answer(answer or kind)
         except BrokenPipeError:
             self._gone()
-        return self._answer(answer or kind)
+        except Error:
+            raise
+        except BaseException:  # such as Ctrl-C: the answer would be taken for that of the next request
+            self.close()
+            raise
 
     def _answer(self, wanted: str) -> bytes:
         deadline = time.monotonic() + self._timeout_s
@@ -111,7 +120,7 @@ class EnvProcess:
             left = left[got:]
         return bytes(data)
 
-    def _gone(self) -> None:
+    def _gone(self) -> NoReturn:
         self.close()
         raise Error(f"{program()} has ended with status {self._process.returncode}; what it said is on standard error")
 

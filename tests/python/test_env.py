@@ -219,6 +219,16 @@ class Episodes(EnvTest):
         self.assertEqual(more_others, others)
         self.assertLess(more_kib - rss_kib, 4096)
 
+    def test_several_at_once(self):
+        envs = [self.env() for _ in range(3)]
+        for seed, env in enumerate(envs):
+            env.reset(seed=seed % 2)
+        for action in actions(1):
+            for env in envs:
+                env.step(action)
+        self.assertEqual(envs[0].digest, envs[2].digest)
+        self.assertNotEqual(envs[0].digest, envs[1].digest)
+
     def test_the_page_keeps_its_lane(self):
         page = (ROOT / "docs/how-to/agent.md").read_text()
         script = self.folder / "agent.py"
@@ -298,6 +308,20 @@ class Refusals(EnvTest):
         os.kill(env._process._process.pid, signal.SIGSTOP)
         self.refused("has not answered within 0.5 s", env.step, [0, 0, 0])
         self.assertIsNotNone(env._process._process.returncode)
+
+    def test_ctrl_c_within_a_step_closes_the_environment(self):
+        class Interrupted:
+            def poll(self, _):
+                raise KeyboardInterrupt
+
+        env = self.env(self.alone(), "pilot")
+        env.reset(record=self.folder / "drive.mcap")
+        env.step([0, 0, 0])
+        env._process._poll = Interrupted()
+        with self.assertRaises(KeyboardInterrupt):
+            env.step([0, 0, 0])
+        self.refused("is closed", env.reset)
+        self.assertIn("identical", run("replay", self.folder / "drive.mcap", "--verify"))
 
 
 if __name__ == "__main__":
