@@ -205,6 +205,7 @@ class Env:
 
     def _values(self, action: Any) -> dict[str, float]:
         """The controls that the action names, each within its bounds."""
+        wanted = ", ".join(self._controls)
         if isinstance(action, Mapping):
             for name in action:
                 if name not in self._controls:
@@ -214,10 +215,10 @@ class Env:
             try:
                 array = np.asarray(action, dtype=np.float64)
             except (TypeError, ValueError):
-                raise Error(f"action: {action!r} was found; numbers were expected: {', '.join(self._controls)}") from None
-            if array.shape != (len(self._controls),):
-                raise Error(f"action: an array of shape {array.shape} was found; ({len(self._controls)},) was expected: "
-                            f"{', '.join(self._controls)}")
+                raise Error(f"action: {action!r} was found; numbers were expected: {wanted}") from None
+            if array.shape != self.action_space.shape:
+                raise Error(f"action: an array of shape {array.shape} was found; {self.action_space.shape} was "
+                            f"expected: {wanted}")
             given = dict(zip(self._controls, array.tolist()))
         for name, value in given.items():
             control = _CONTROLS[name]

@@ -97,8 +97,10 @@ class EnvProcess:
         if kind == b"E":
             reader = Reader(content)
             reader.numbers("I")
-            reader.text()
-            raise Error(reader.text())
+            name = reader.text()
+            problem = Error(reader.text())
+            problem.id = name
+            raise problem
         if kind != wanted.encode():
             self.close()
             raise Error(f"{program()}: an answer '{kind.decode('latin-1')}' was found; '{wanted}' was expected; is the "

@@ -10,6 +10,8 @@ from collections.abc import Iterable
 class Error(Exception):
     """Wrong input or damaged data: one sentence with place, what was found and what was expected."""
 
+    id = ""  # of an error that `rodeira env` has found (docs/reference/errors.md)
+
 
 class RecordingWarning(UserWarning):
     """Part of a recording cannot be read; the rest can."""

@@ -245,11 +245,23 @@ class Refusals(EnvTest):
         with self.assertRaisesRegex(rodeira.Error, pattern):
             call(*words, **options)
 
+    def refused_by_rodeira(self, name, place, call, *words, **options):
+        """Its error has that id, and names the place."""
+        with self.assertRaises(rodeira.Error) as caught:
+            call(*words, **options)
+        self.assertEqual(caught.exception.id, name)
+        self.assertIn(place, str(caught.exception))
+
     def test_launch_files_and_agents(self):
-        self.refused("nothing.yaml: .*[Nn]o such file", rodeira.Env, "nothing.yaml")
-        self.refused("'drver' was found.*did you mean 'driver'", rodeira.Env, DEMO, "drver")
-        self.refused("'ego' is of kind 'vehicle'", rodeira.Env, DEMO, "ego")
-        self.refused("nodes.traffic.config.vehicles", self.env(set={"nodes.traffic.config.vehicles": "many"}).reset)
+        for name, place, words, changes in (("file.not_found", "nothing.yaml", ["nothing.yaml"], {}),
+                                            ("launch.no_agent_node", "'driver'", [DEMO, "drver"], {}),
+                                            ("launch.no_agent_node", "'vehicle'", [DEMO, "ego"], {}),
+                                            ("file.not_found", "nowhere.yaml", [DEMO], {"world": "nowhere.yaml"}),
+                                            ("config.unknown_key", "'sed'", [DEMO], {"sed": 1})):
+            self.refused_by_rodeira(name, place, rodeira.Env, *words, set=changes)
+        for name, place, changes in (("config.wrong_type", "vehicles", {"nodes.traffic.config.vehicles": "many"}),
+                                     ("launch.no_road_server", "'ego'", {"nodes.road.kind": "none"})):
+            self.refused_by_rodeira(name, place, self.env(set=changes).reset)
         self.refused("unknown control 'throtle'; did you mean 'throttle'", rodeira.Env, DEMO, controls=["throtle"])
         self.refused("a name stands twice", rodeira.Env, DEMO, controls=["brake", "brake"])
         self.refused("a list of names was expected", rodeira.Env, DEMO, controls="brake")
@@ -264,7 +276,8 @@ class Refusals(EnvTest):
         env.reset()
         digest = env.digest
         for action, pattern in ((0.5, r"shape \(\)"), ([0.5], r"shape \(1,\)"), ([[0.5, 1]], r"shape \(1, 2\)"),
-                                ([0.5, 1, 0], r"\(2,\) was expected: throttle, gear"), ("full", "numbers were expected"),
+                                ([0.5, 1, 0], r"\(2,\) was expected: throttle, gear"),
+                                ("full", "numbers were expected"),
                                 ([math.nan, 1], "throttle is nan"), ([math.inf, 1], "throttle is inf"),
                                 ([1.1, 1], "throttle is 1.1; a number from 0 to 1"),
                                 ([0.5, 1.5], "gear is 1.5; a whole number from -1 to 20"),
@@ -283,9 +296,9 @@ class Refusals(EnvTest):
         self.refused("unknown option 'recrd'; did you mean 'record'", env.reset, options={"recrd": 1})
         there = self.folder / "there.mcap"
         there.write_text("mine")
-        self.refused("the file exists", env.reset, record=there)
+        self.refused_by_rodeira("file.exists", "there.mcap", env.reset, record=there)
         self.refused("reset\\(\\) was expected", env.step, [0, 0, 0])
-        self.refused("no_folder", env.reset, record=self.folder / "no_folder/drive.mcap")
+        self.refused_by_rodeira("file.cannot_open", "no_folder", env.reset, record=self.folder / "no_folder/drive.mcap")
         self.assertEqual(there.read_text(), "mine")
         env.reset(options={"record": self.folder / "fine.mcap"})
         self.assertTrue(env.step([0, 0, 0])[2])
