@@ -45,8 +45,39 @@ constexpr std::array<std::pair<LaneType, std::string_view>, 31> kNames = {{
     {LaneType::kSpecial3, "special3"},
 }};
 
-geometry::CubicPoint OuterEdge(const Lane& lane, double sign, const geometry::CubicPoint& inner, double s_m) {
-  return OuterEdgeBy(lane.bordered(), (lane.bordered() ? lane.border : lane.width).Evaluate(s_m), sign, inner);
+// Finds the records in force at one s, table after table. The tables of lanes side by side often have their records at
+// the same places, and one s is often close to the one before: a record is looked for first where the last was found.
+class RecordFinder {
+ public:
+  explicit RecordFinder(double s_m) : s_m_(s_m) {}
+
+  // Null where the table is empty.
+  const geometry::Cubic* In(const geometry::CubicTable& table) {
+    const std::vector<geometry::Cubic>& records = table.records();
+    if (records.empty()) return nullptr;
+    if (!InForce(records, found_)) found_ = static_cast<std::size_t>(&table.At(s_m_) - records.data());
+    return &records[found_];
+  }
+
+ private:
+  bool InForce(const std::vector<geometry::Cubic>& records, std::size_t index) const {
+    return index < records.size() && (index == 0 || records[index].from <= s_m_) &&
+           (index + 1 == records.size() || s_m_ < records[index + 1].from);
+  }
+
+  static thread_local std::size_t found_;  // where to look first; says nothing of the result
+  const double s_m_;
+};
+thread_local std::size_t RecordFinder::found_ = 0;
+
+// A lane's width at s, or where it has a border instead that.
+const geometry::CubicTable& EdgeOf(const Lane& lane) { return lane.bordered() ? lane.border : lane.width; }
+
+geometry::CubicPoint OuterEdge(const Lane& lane, double sign, const geometry::CubicPoint& inner, double s_m,
+                               RecordFinder& finder) {
+  const geometry::Cubic* record = finder.In(EdgeOf(lane));
+  if (record == nullptr) return OuterEdgeBy(lane.bordered(), {}, sign, inner);
+  return OuterEdgeBy(lane.bordered(), {record->Value(s_m), record->Slope(s_m), 0.0}, sign, inner);
 }
 
 }  // namespace
@@ -114,8 +145,9 @@ std::optional<LaneSpan> LaneSection::Span(int id, const geometry::CubicPoint& ce
   if (id == 0 || Find(id) == nullptr) return std::nullopt;
   const double sign = id > 0 ? 1.0 : -1.0;
   geometry::CubicPoint inner = centre_t;
+  RecordFinder finder(at_s_m);
   for (const Lane& lane : id > 0 ? left : right) {
-    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m);
+    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m, finder);
     if (lane.id == id) return LaneSpan{&lane, inner.value, outer.value, inner.slope, outer.slope};
     inner = outer;
   }
@@ -126,8 +158,9 @@ LaneSpan LaneSection::At(double t_m, const geometry::CubicPoint& centre_t, doubl
   const double sign = t_m >= centre_t.value ? 1.0 : -1.0;
   geometry::CubicPoint inner = centre_t;
   LaneSpan span;
+  RecordFinder finder(at_s_m);
   for (const Lane& lane : sign > 0.0 ? left : right) {
-    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m);
+    const geometry::CubicPoint outer = OuterEdge(lane, sign, inner, at_s_m, finder);
     span = {&lane, inner.value, outer.value, inner.slope, outer.slope};
     // A lane without width holds nothing; t on the centre belongs to the first that has one.
     if (sign * (outer.value - t_m) >= 0.0 && outer.value != inner.value) {
@@ -151,9 +184,15 @@ void LaneSection::Bounds(const geometry::CubicTable& centre_t, double low_s_m, d
   for (const std::vector<Lane>* side : {&left, &right}) {
     const bool is_left = side == &left;
     double edge = is_left ? high : low;
+    RecordFinder finder(low_s_m);
     for (const Lane& lane : *side) {
       double smallest, largest;
-      (lane.bordered() ? lane.border : lane.width).Bounds(low_s_m, high_s_m, smallest, largest);
+      if (low_s_m == high_s_m) {
+        const geometry::Cubic* record = finder.In(EdgeOf(lane));
+        smallest = largest = record == nullptr ? 0.0 : record->Value(low_s_m);
+      } else {
+        EdgeOf(lane).Bounds(low_s_m, high_s_m, smallest, largest);
+      }
       if (lane.bordered())
         edge = is_left ? std::max(edge, largest) : std::min(edge, smallest);
       else

@@ -119,7 +119,8 @@ SurfaceSample Road::OnGround(const geometry::PlanPoint& at, double s_m, double t
 SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section,
                             const LaneSpan& span) const {
   if (spec_.ground != nullptr) return OnGround(at, s_m, t_m, span);
-  const geometry::CubicPoint z = spec_.elevation.Evaluate(s_m);
+  const geometry::Cubic& elevation = spec_.elevation.empty() ? kLevel : spec_.elevation.At(s_m);
+  const double z_m = elevation.Value(s_m), z_slope = elevation.Slope(s_m);
   const Eigen::Vector2d& T = at.tangent_W;
   const Eigen::Vector2d N = at.left_W();
   // How t is split: the part that the superelevation turns, and the part beyond it that stays level.
@@ -139,20 +140,21 @@ SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_
     height.slope_t += lateral.slope_t * turned_t;
   }
   SurfaceSample sample;
-  if (!Leans(s_m)) {
+  const geometry::Cubic* superelevation = rolled_ ? &spec_.superelevation.At(s_m) : nullptr;
+  if (superelevation == nullptr || IsZero(*superelevation)) {
     const double pace = 1.0 - at.curvature_1pm * t_m;
-    sample.p_W = {at.p_W.x() + t_m * N.x(), at.p_W.y() + t_m * N.y(), z.value + height.z_m};
-    sample.ds_W = {pace * T.x(), pace * T.y(), z.slope + height.slope_s};
+    sample.p_W = {at.p_W.x() + t_m * N.x(), at.p_W.y() + t_m * N.y(), z_m + height.z_m};
+    sample.ds_W = {pace * T.x(), pace * T.y(), z_slope + height.slope_s};
     sample.dt_W = {N.x(), N.y(), height.slope_t};
     return sample;
   }
-  const Lean lean = LeanAt(s_m);
+  const Lean lean = LeanOf(RollAt(*superelevation, s_m), ClimbAt(elevation, s_m));
   if (turned_t == 1.0) {
     const LeanPace pace = PaceOf(lean, at.curvature_1pm, t_m);
     sample.p_W = {at.p_W.x() + t_m * (pace.dt_T * T.x() + pace.dt_N * N.x()),
-                  at.p_W.y() + t_m * (pace.dt_T * T.y() + pace.dt_N * N.y()), z.value + t_m * lean.up + height.z_m};
+                  at.p_W.y() + t_m * (pace.dt_T * T.y() + pace.dt_N * N.y()), z_m + t_m * lean.up + height.z_m};
     sample.ds_W = {pace.ds_T * T.x() + pace.ds_N * N.x(), pace.ds_T * T.y() + pace.ds_N * N.y(),
-                   z.slope + t_m * lean.up_1pm + height.slope_s};
+                   z_slope + t_m * lean.up_1pm + height.slope_s};
     sample.dt_W = {pace.dt_T * T.x() + pace.dt_N * N.x(), pace.dt_T * T.y() + pace.dt_N * N.y(),
                    lean.up + height.slope_t};
     return sample;
@@ -160,9 +162,9 @@ SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_
   const double flat = t_m - turned, k = at.curvature_1pm;
   const Eigen::Vector2d e = lean.left * N - lean.back * T;
   const Eigen::Vector2d e_s = (lean.left_1pm - lean.back * k) * N - (lean.left * k + lean.back_1pm) * T;
-  sample.p_W << at.p_W + turned * e + flat * N, z.value + turned * lean.up + height.z_m;
+  sample.p_W << at.p_W + turned * e + flat * N, z_m + turned * lean.up + height.z_m;
   sample.ds_W << T + turned_s * e + turned * e_s - turned_s * N - flat * k * T,
-      z.slope + turned_s * lean.up + turned * lean.up_1pm + height.slope_s;
+      z_slope + turned_s * lean.up + turned * lean.up_1pm + height.slope_s;
   sample.dt_W << N, height.slope_t;
   return sample;
 }

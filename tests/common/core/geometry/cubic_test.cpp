@@ -24,6 +24,26 @@ TEST(CubicTable, EachRecordHoldsUntilTheNext) {
   EXPECT_TRUE(CubicTable({{0.0, 0.0, 0.0, 0.0, 0.0}}).zero());
 }
 
+TEST(CubicTable, TheLastRecordThatBeginsNoLaterIsInForce) {
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    std::vector<Cubic> records;
+    double from = base::RandomUniform({n, 1}, -5.0, 5.0);
+    for (std::uint64_t i = 0; i <= n % 40; ++i) {
+      records.push_back({from, static_cast<double>(i), 0.0, 0.0, 0.0});
+      if (base::RandomBits({n, i, 2}) % 4 != 0) from += base::RandomUniform({n, i, 3}, 0.0, 2.0);
+    }
+    const CubicTable table(records);
+    const auto expect_in_force = [&](double x) {
+      const auto later = std::find_if(records.begin() + 1, records.end(), [x](const Cubic& r) { return x < r.from; });
+      EXPECT_EQ(table.Value(x), (later - 1)->a) << n << ", " << x;
+    };
+    for (const Cubic& record : records) {
+      for (const double off : {-1e-9, 0.0, 1e-9}) expect_in_force(record.from + off);
+    }
+    expect_in_force(records.front().from - 10.0), expect_in_force(records.back().from + 10.0);
+  }
+}
+
 TEST(CubicTable, BoundsHoldWhatSamplesFind) {
   for (std::uint64_t n = 0; n < 400; ++n) {
     std::vector<Cubic> records;

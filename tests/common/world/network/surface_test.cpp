@@ -138,6 +138,38 @@ TEST(Surface, DerivativesAreThoseOfTheSurface) {
   EXPECT_GT(level, 100);
 }
 
+TEST(Surface, EdgesOfLanesAreTheSumsOfTheirWidthsWhereverTheseHaveTheirRecords) {
+  LaneSection section;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    Lane& lane = section.left.emplace_back();
+    lane.id = static_cast<int>(i) + 1;
+    std::vector<geometry::Cubic> records;
+    for (std::uint64_t k = 0; k < 1 + i % 5 * 4; ++k) {  // some alike, one without any but the first
+      const double from = 7.0 * static_cast<double>(k) + (i % 3 == 0 ? 0.0 : base::RandomUniform({i, k, 1}, 0.0, 5.0));
+      records.push_back({from, base::RandomUniform({i, k, 2}, -0.5, 4.0), 0.01, 1e-4, -1e-6});
+    }
+    lane.width = geometry::CubicTable(records);
+  }
+  const geometry::CubicPoint centre{0.4, 0.02, 0.0};
+  for (std::uint64_t n = 0; n < 500; ++n) {
+    const double s = base::RandomUniform({n, 9}, -5.0, 130.0);
+    double edge = centre.value, slope = centre.slope;
+    for (const Lane& lane : section.left) {
+      const geometry::CubicPoint width = lane.width.Evaluate(s);
+      if (width.value > 0.0) edge += width.value, slope += width.slope;
+      const auto span = section.Span(lane.id, centre, s);
+      ASSERT_TRUE(span.has_value());
+      EXPECT_EQ(span->outer_t_m, edge) << s << " " << lane.id;
+      EXPECT_EQ(span->outer_slope, slope) << s << " " << lane.id;
+    }
+    double outside;
+    const LaneSpan last = section.At(edge + 2.0, centre, s, outside);
+    EXPECT_EQ(last.lane, &section.left.back());
+    EXPECT_EQ(last.outer_t_m, edge);
+    EXPECT_EQ(outside, edge + 2.0 - edge);
+  }
+}
+
 TEST(Surface, LocateLeadsBackAlsoWhereTheRoadIsRolled) {
   const auto network = MustRead(Rich());
   const Road& road = network->roads()[0];
