@@ -54,6 +54,8 @@ constexpr Catalogued kCatalogue[] = {
     {"350", "", "crossing"},
     {"406", "", "guide_blue"},
     {"430", "", "guide_blue"},
+    {"434", "", "guide_yellow"},  // direction signs at a junction; 435 and 436: other shapes within towns, until 2013
+    {"435", "", "guide_yellow"},
     {"436", "", "guide_yellow"},
     {"440", "", "guide_blue"},
     {"449", "", "guide_blue"},

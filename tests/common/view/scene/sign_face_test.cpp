@@ -122,6 +122,8 @@ TEST(SignFace, OtherCataloguesHaveTheirShapeAndColour) {
   };
   EXPECT_EQ(face("DE", "222"), "keep_right");
   for (const char* blue : {"332", "333", "406", "430", "440", "449"}) EXPECT_EQ(face("DE", blue), "guide_blue") << blue;
+  // StVO of 1970, § 42 (8): 435 and 436 are 434 in other shapes.
+  for (const char* yellow : {"434", "435", "436"}) EXPECT_EQ(face("DE", yellow), "guide_yellow") << yellow;
   for (const char* beacon : {"450", "451", "452"}) EXPECT_EQ(face("OpenDRIVE", beacon, "50"), "exit_beacon") << beacon;
   EXPECT_EQ(face("DE", "605", "10"), "beacon");
   EXPECT_EQ(face("DE", "103"), "bend_right");
