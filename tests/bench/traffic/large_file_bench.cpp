@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An OpenDRIVE file of 9 MB with 4608 roads, of which 952 are U-turns that no car can drive: asked are 2 s to read and
+// An OpenDRIVE file of 9 MB with 4608 roads, of which 952 are U-turns that miss their lanes: asked are 2 s to read and
 // check it, and 4 s to the first step of traffic. SUMO's netgenerate makes it: 16 x 16 junctions with lights. Where
 // SUMO is not installed the benchmark says so.
 #include <benchmark/benchmark.h>
