@@ -11,14 +11,16 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLaneChangeRoom_m = 30.0;    // a lane change takes this length with marks that allow it
+constexpr double kLaneChangeRoom_m = 30.0;    // a lane change takes this length with marks that allow it …
+constexpr double kTightChangeRoom_m = 20.0;   // … or that of a shorter track, if that is no less
 constexpr double kMarkSamplingStep_m = 10.0;  // between two places at which the marks are checked
-constexpr double kLengthTolerance_m = 1e-6;
+constexpr double kLaterIsLonger_m = 30.0;     // at most, a way with a later change, as by the lanes of a bend
 
 bool MayChange(const lanes::Graph& graph, const lanes::EdgeMarks& marks, std::uint32_t track, lanes::Side side) {
   if (!(side == lanes::Side::kLeft ? graph[track].left : graph[track].right)) return false;
-  for (double d = 0.0; d + kLaneChangeRoom_m <= graph[track].length_m(); d += kMarkSamplingStep_m) {
-    if (marks.MayCross(track, side, d, d + kLaneChangeRoom_m)) return true;
+  const double room = std::clamp(graph[track].length_m(), kTightChangeRoom_m, kLaneChangeRoom_m);
+  for (double d = 0.0; d + room <= graph[track].length_m(); d += kMarkSamplingStep_m) {
+    if (marks.MayCross(track, side, d, d + room)) return true;
   }
   return false;
 }
@@ -86,7 +88,8 @@ void Route::FindWays(const lanes::Graph& graph, const lanes::EdgeMarks& marks, s
        ++track) {  // one that may as well change later does not have to now
     const auto& next = graph[track].next;
     if (left[track].must_change && std::any_of(next.begin(), next.end(), [&](const lanes::Link& on) {
-          return left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kLengthTolerance_m;
+          return left[on.to].changes == left[track].changes &&
+                 left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kLaterIsLonger_m;
         }))
       left[track].must_change = false;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/driving/driver/idm.hpp"
+#include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/pedestrians/stopping.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
@@ -18,7 +19,8 @@ constexpr double kSeekingShare = 0.75,
                  kSeeking_mps2 =
                      1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
-constexpr double kLaneEndShare = 1.25;  // of comfortable braking, before the end of the lane
+constexpr double kTightSeeking_mps = 3.5;  // the same where only slow vehicles change lanes
+constexpr double kLaneEndShare = 1.25;     // of comfortable braking, before the end of the lane
 
 }  // namespace
 
@@ -43,6 +45,12 @@ double Acceleration::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::All
   return std::min(wanted, slows + (line - v) / in_.settings.tracking_s);
 }
 
+// While it looks for a gap in the lane beside.
+double Acceleration::SeekingSpeed(std::uint32_t id, double planned_mps) const {
+  const double speed = kSeekingShare * planned_mps;
+  return in_.lanes_beside.ChangesSlowly(id) ? std::min(speed, kTightSeeking_mps) : speed;
+}
+
 // The least of the plan, the leader, and the line before zones that are not its own.
 double Acceleration::Wanted(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
@@ -59,7 +67,9 @@ double Acceleration::Wanted(std::uint32_t id) const {
   if (planned > Cap_mps(in_.agents[id], in_.traits[id]))
     wanted = std::min(wanted, (Cap_mps(in_.agents[id], in_.traits[id]) - v) / in_.settings.tracking_s);
   if (agent.seeks)
-    wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / in_.settings.tracking_s));
+    wanted = std::min(wanted, std::max(-kSeeking_mps2, (SeekingSpeed(id, planned) - v) / in_.settings.tracking_s));
+  if (const Piece& last = agent.path.back(); agent.change.side != 0 && last.blend_m < kMinLaneChangeLength_m)
+    wanted = std::min(wanted, (TightChange_mps(last.offset_m, last.blend_m) - v) / in_.settings.tracking_s);
   const Leader& ahead = in_.ahead[id];
   if (ahead.any && ahead.gap_m < in_.settings.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
@@ -73,6 +83,8 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
   if (const auto end = in_.lanes_beside.EndAhead(id))
     wanted = std::min(wanted, in_.following.StopAt(id, end->waits_m, kLaneEndShare));
+  if (const auto waits = in_.lanes_beside.WaitsBeside_m(id))
+    wanted = std::min(wanted, in_.following.StopAt(id, *waits, kLaneEndShare));
   if (in_.bars[id] < kNoBarrier_m) wanted = std::min(wanted, in_.following.StopAt(id, in_.bars[id], kYieldingShare));
   wanted = std::min(wanted, in_.leaves[id]);
   wanted = std::min({wanted, in_.oncoming.WantedForOvertaker(id, limit), in_.lane_changes.WantedCourteous(id, limit)});

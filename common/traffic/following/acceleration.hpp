@@ -50,6 +50,7 @@ class Acceleration {
   double Smoothed(std::uint32_t id, double wanted_mps2, double dt_s);
 
  private:
+  double SeekingSpeed(std::uint32_t id, double planned_mps) const;
   double WantedByPlan(std::uint32_t id, const driver::SpeedPlan::Allowed& here) const;
 
   Reads in_;

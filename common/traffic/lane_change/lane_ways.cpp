@@ -19,6 +19,8 @@ constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a la
 constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
 constexpr double kEndNotice_s = 1.5, kEndBraking_mps2 = 1.5;  // within which a lane's end is noticed and stopped for
 constexpr double kWaitingMargin_m = 3.0;                      // before the last place from which a change is possible
+constexpr double kShortTrack_m = 60.0;                        // from one junction to the next
+constexpr double kWaitsBeside_s = 20.0;                       // for a gap in the lane beside
 constexpr double kEndMargin_m = 0.5;                          // from the end of a change to the end of the lane
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
@@ -28,11 +30,10 @@ const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
 }
 
 // Wide enough and not too bent between two distances.
-bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
+bool IsEasy(const lanes::Curve& curve, double low_m, double high_m, double tightest_1pm) {
   for (double d = low_m; d < high_m + kLaneSamplingStep_m; d += kLaneSamplingStep_m) {
     const double at = std::min(d, high_m);
-    if (curve.WidthAt(at) < kMinLaneChangeWidth_m || std::fabs(curve.At(at).curvature_1pm) > kTightestLaneChange_1pm)
-      return false;
+    if (curve.WidthAt(at) < kMinLaneChangeWidth_m || std::fabs(curve.At(at).curvature_1pm) > tightest_1pm) return false;
   }
   return true;
 }
@@ -41,7 +42,7 @@ bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
 
 // The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may
 // come to.
-std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side, double ends_m) const {
+std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side, double ends_m, double tight_m) const {
   const Agent& agent = in_.agents[id];
   const Piece& last = agent.path.back();
   const lanes::Track& track = in_.map.graph[last.track];
@@ -72,12 +73,24 @@ std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side, double en
   piece.blend_m = length(LaneChangeTime_s(piece.offset_m));
   const double left = ends_m - begin - 0.5 * in_.traits[id].length_m;
   if (piece.blend_m > left) piece.blend_m = std::max(left, length(UrgentLaneChangeTime_s(piece.offset_m)));
+  const double tight = tight_m - begin - kEndMargin_m;
+  if (piece.blend_m > tight && tight >= kMinTightChangeLength_m &&
+      agent.speed_mps < TightChange_mps(piece.offset_m, tight))
+    piece.blend_m = tight;
   return piece;
+}
+
+bool LaneWays::ChangesSlowly(std::uint32_t id) const {
+  const lanes::Track& track = in_.map.graph[in_.agents[id].path.back().track];
+  if (track.junction >= 0 || !(track.left || track.right)) return false;
+  return track.length_m() < kShortTrack_m ||
+         std::fabs(track.curve.At(in_.agents[id].o_m - in_.agents[id].path.back().zero_m).curvature_1pm) >
+             kTightestLaneChange_1pm;
 }
 
 // Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
 // on foot, easy to drive, and it goes on.
-bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
+bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m, double tightest_1pm) const {
   const RouteSegment* before = nullptr;
   for (const RouteSegment& stretch : in_.stretches[id]) {
     const bool beside = before != nullptr && before->changes;  // then it is there from its rear on
@@ -99,7 +112,8 @@ bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
     for (const StopLine& line : in_.map.plans[stretch.track].lines) {
       if (line.d_m > low && line.d_m < high) return false;
     }
-    if (NearCrossing(in_.people, stretch.track, low, high) || !IsEasy(track.curve, low, high)) return false;
+    if (NearCrossing(in_.people, stretch.track, low, high) || !IsEasy(track.curve, low, high, tightest_1pm))
+      return false;
   }
   return in_.stretches[id].back().end_m >= to_m;
 }
@@ -189,6 +203,22 @@ std::optional<EndingLane> LaneWays::EndAhead(std::uint32_t id) const {
     return EndingLane{waits, ends};
   }
   return std::nullopt;
+}
+
+// Where its front waits for a gap on a short track that its route leaves by the lane beside; none where it needs no
+// change, is past that place, or has waited long: it then goes on and comes there anew.
+std::optional<double> LaneWays::WaitsBeside_m(std::uint32_t id) const {
+  const Agent& agent = in_.agents[id];
+  const Route* route = RouteOf(in_.map, agent);
+  const Piece& last = agent.path.back();
+  if (route == nullptr || agent.waited_s > kWaitsBeside_s) return std::nullopt;
+  const std::uint32_t leg = route->LegOn(agent.leg, last.track);
+  if (leg >= route->legs() || !route->MustChange(leg, last.track) || !ChangesSlowly(id)) return std::nullopt;
+  const double waits =
+      last.zero_m + in_.map.graph[last.track].length_m() - kMinTightChangeLength_m - 2.0 * kEndMargin_m;
+  const double front = FrontOf(agent, in_.traits[id]);
+  if (waits < last.begin_m || front > waits + kEndMargin_m) return std::nullopt;
+  return waits;
 }
 
 // Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.

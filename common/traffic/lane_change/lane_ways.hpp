@@ -6,11 +6,13 @@
 #include <span>
 
 #include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 
@@ -34,11 +36,16 @@ class LaneWays {
   };
   explicit LaneWays(const Reads& reads) : in_(reads) {}
 
-  // `ends_m`: odometer at which the change must have ended; it is more abrupt then.
-  std::optional<Piece> PieceBeside(std::uint32_t id, int side, double ends_m) const;
-  bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
+  // `ends_m`: odometer at which the change must have ended; it is more abrupt then. `tight_m`: the same of one that may
+  // be as short as a slow vehicle can drive.
+  std::optional<Piece> PieceBeside(std::uint32_t id, int side, double ends_m, double tight_m = kNoBarrier_m) const;
+  bool IsPlain(std::uint32_t id, double from_m, double to_m, double tightest_1pm = kTightestLaneChange_1pm) const;
+  // Whether its way is so short or bent here that only slow vehicles change lanes.
+  bool ChangesSlowly(std::uint32_t id) const;
   bool IsFree(std::uint32_t id, double from_m, double to_m) const;
   std::optional<EndingLane> EndAhead(std::uint32_t id) const;
+  // Odometer.
+  std::optional<double> WaitsBeside_m(std::uint32_t id) const;
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
   double RouteEnds(std::uint32_t id) const;
   int FewerChanges(std::uint32_t id, std::uint32_t track) const;

@@ -32,12 +32,22 @@ constexpr double kForcedSafe_mps2 = 3.0, kForcedFrom_m = 150.0;  // braking aske
 std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, bool told) {
   Agent& agent = out_.agents[id];
   const auto end = in_.lanes_beside.EndAhead(id);
-  const auto piece = in_.lanes_beside.PieceBeside(id, side, end ? end->ends_m : kNoBarrier_m);
+  const lanes::Track& track = in_.map.graph[agent.path.back().track];
+  const auto beside = side > 0 ? track.left : track.right;
+  const int fewer = beside ? in_.lanes_beside.FewerChanges(id, *beside) : 0;
+  const bool tight = fewer > 0 && in_.lanes_beside.ChangesSlowly(id);
+  const double tight_m = std::min(agent.path.back().zero_m + track.length_m(),
+                                  in_.passages[id].any ? in_.passages[id].line_m : kNoBarrier_m);
+  const auto piece =
+      in_.lanes_beside.PieceBeside(id, side, end ? end->ends_m : kNoBarrier_m, tight ? tight_m : kNoBarrier_m);
   if (!piece) return std::nullopt;
   const AgentTraits& traits = in_.traits[id];
-  const double half = 0.5 * traits.length_m, rear = agent.o_m - half, to = piece->begin_m + piece->blend_m + half;
-  if (in_.passages[id].any && in_.passages[id].line_m < to + half) return std::nullopt;
-  if (!in_.lanes_beside.IsPlain(id, rear, to) || !in_.lanes_beside.MayCross(id, side, piece->begin_m, to - half))
+  const bool slowly = piece->blend_m < kMinLaneChangeLength_m;
+  const double half = 0.5 * traits.length_m, rear = agent.o_m - half, ends_m = piece->begin_m + piece->blend_m,
+               to = ends_m + (slowly ? 0.0 : half);
+  const double tightest = slowly ? kTightestTightChange_1pm : kTightestLaneChange_1pm;
+  if (in_.passages[id].any && in_.passages[id].line_m < (slowly ? ends_m : to + half)) return std::nullopt;
+  if (!in_.lanes_beside.IsPlain(id, rear, to, tightest) || !in_.lanes_beside.MayCross(id, side, piece->begin_m, ends_m))
     return std::nullopt;
   const double beside_m = agent.o_m - piece->zero_m;
   for (const Occupant& other : out_.occupants.Beyond(piece->track, beside_m)) {
@@ -57,7 +67,7 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   const double ends = in_.lanes_beside.LaneEnds(id);
   const bool leaves_end = end && own_ends < ends - kSooner_m;
   const bool plain = leaves_end ? in_.lanes_beside.IsPlain(id, rear, to) && in_.lanes_beside.IsFree(id, to, stops)
-                                : in_.lanes_beside.IsPlain(id, rear, std::max(to, stops));
+                                : in_.lanes_beside.IsPlain(id, rear, std::max(to, stops), tightest);
   const Leader ahead = plain ? in_.neighbours.FindLeader(id) : Leader();
   const LaneChange none =
       std::exchange(agent.change, {side, piece->blend_from_m, piece->blend_from_m + piece->blend_m});
@@ -66,7 +76,6 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   agent.change = none;
   agent.path.pop_back();
   LaneChangeOption way{*piece, side, 0.0, std::exchange(out_.stretches[id], std::move(own))};
-  const int fewer = in_.lanes_beside.FewerChanges(id, piece->track);
   if (!plain || is_kept || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m))))
     return std::nullopt;
   const Follower old_follower = in_.neighbours.FindFollower(
@@ -106,9 +115,14 @@ bool LaneChanges::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
   return IsItsTurn(in_.time_ns, id, step_ns) && in_.time_ns >= out_.agents[id].settled_ns && MayLeaveLane(id);
 }
 
+// Whether it must change lanes for its route where only slow vehicles can.
+bool LaneChanges::NeedsSlowChange(std::uint32_t id) const {
+  return in_.lanes_beside.ChangesSlowly(id) && in_.lanes_beside.RouteEnds(id) < kNoBarrier_m;
+}
+
 bool LaneChanges::MayLeaveLane(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
-  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id)) &&
+  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id) || NeedsSlowChange(id)) &&
          in_.map.graph[agent.path.back().track].junction < 0 && agent.grants.empty() && !in_.passages[id].due;
 }
 
