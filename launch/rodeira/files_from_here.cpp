@@ -20,6 +20,15 @@ bool IsFile(const std::string& word) {
   return can_be && fs::is_regular_file(word, problem);
 }
 
+// A file that is in neither place, in a folder of the current directory alone: a misspelt name.
+bool IsMissingHere(const std::string& word, const fs::path& launch_folder) {
+  std::error_code problem;
+  const fs::path path(word);
+  return path.is_relative() && path.has_parent_path() && path.has_extension() &&
+         fs::is_directory(path.parent_path(), problem) && !fs::exists(path, problem) &&
+         !fs::exists(launch_folder / path.parent_path(), problem);
+}
+
 std::string Replace(const std::string& value, const std::function<std::string(const std::string&)>& rename) {
   if (IsFile(value)) {
     const std::string renamed = rename(value);
@@ -52,7 +61,8 @@ launch::Overrides WithFilesFromHere(const launch::Overrides& overrides, const fs
   };
   launch::Overrides renamed = overrides;
   for (auto& [key, value] : renamed) {
-    if (!key.ends_with(".config.file")) value = Replace(value, rename);
+    if (key.ends_with(".config.file")) continue;
+    value = IsMissingHere(value, folder) ? config::Quoted(rename(value)) : Replace(value, rename);
   }
   return renamed;
 }

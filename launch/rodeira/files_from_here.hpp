@@ -15,7 +15,8 @@ namespace rodeira::cli {
 std::string WithFilesFromHere(const std::string& value);
 
 // The same for all overrides, with paths relative to the launch file's folder: PCs with the same folders agree on them.
-// A recorder's `config.file` stays, it is written.
+// A recorder's `config.file` stays, it is written. A missing file is sought here, too, where only the current directory
+// has its folder: the error then names the nearest file there.
 launch::Overrides WithFilesFromHere(const launch::Overrides& overrides, const std::filesystem::path& launch_file);
 
 }  // namespace rodeira::cli

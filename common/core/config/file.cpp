@@ -14,17 +14,27 @@ namespace {
 
 constexpr std::size_t kSlip = 5;  // 's_m' is as near to 't_m' as any other
 
-// 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
-bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
+const std::set<std::string, std::less<>>& Units() {
   static const std::set<std::string, std::less<>> kUnits = {
       "m",     "cm",  "mm", "km", "ft",  "s",   "ms",  "us",  "ns",   "min", "h",       "kg",   "g",
       "t",     "n",   "kn", "nm", "rad", "deg", "mps", "kmh", "kmph", "kph", "mph",     "mps2", "radps",
       "degps", "rpm", "hz", "w",  "kw",  "hp",  "pa",  "kpa", "bar",  "pct", "percent", "m2",   "kgm2"};
+  return kUnits;
+}
+
+// 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
+bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
   const auto cut_a = a.rfind('_');
   const auto cut_b = b.rfind('_');
   if (cut_a == std::string::npos || cut_b == std::string::npos || a.substr(0, cut_a) != b.substr(0, cut_b))
     return false;
-  return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
+  return Units().contains(a.substr(cut_a + 1)) && Units().contains(b.substr(cut_b + 1));
+}
+
+// 'heading_deg' where 'heading' was given.
+bool LacksUnit(const std::string& key, const std::string& known) {
+  return known.size() > key.size() + 1 && known.starts_with(key + '_') &&
+         Units().contains(known.substr(key.size() + 1));
 }
 
 constexpr std::size_t kMaxUnknown = 50;  // keys of a mapping that are looked at: a file of another kind has thousands
@@ -40,7 +50,13 @@ Meant MeantBy(const std::string& key, const std::set<std::string, std::less<>>& 
   for (const std::string& other : known) {
     if (DifferOnlyByUnit(other, key)) return {other, fmt::format("; the unit is part of the name: '{}'", other)};
   }
-  return {base::NearestName(key, known), base::DidYouMean(key, known)};
+  const std::string nearest = base::NearestName(key, known);
+  if (nearest.empty()) {
+    for (const std::string& other : known) {
+      if (LacksUnit(key, other)) return {other, fmt::format("; the unit is part of the name: '{}'", other)};
+    }
+  }
+  return {nearest, base::DidYouMean(key, known)};
 }
 
 void CollectScalars(const YAML::Node& node, std::vector<std::string>& out) {
@@ -104,6 +120,14 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   return File(context);
 }
 
+namespace {
+
+bool NamesAFile(const YAML::Node& node) {
+  return node.IsScalar() && (node.Scalar().ends_with(".yaml") || node.Scalar().ends_with(".yml"));
+}
+
+}  // namespace
+
 base::Status File::Override(std::string_view key, std::string_view value) {
   const std::string where = fmt::format("--set {}={}", key, value);
   const auto leaf = LoadYaml(std::string(value), "the value");
@@ -116,9 +140,10 @@ base::Status File::Override(std::string_view key, std::string_view value) {
     const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
     if (part.empty()) return base::WrongInput("config.wrong_override", "a key of the form a.b.c was expected", where);
     if (!at.IsMap() && !at.IsNull())
-      return base::WrongInput(
-          "config.not_mapping",
-          fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
+      return base::WrongInput("config.not_mapping",
+                              fmt::format("'{}' is {}, no mapping{}", key.substr(0, from == 0 ? 0 : from - 1),
+                                          KindOf(at), NamesAFile(at) ? "; change the key in a copy of that file" : ""),
+                              where);
     if (dot == std::string_view::npos) {
       if (leaf.value().IsNull())
         at.remove(part);

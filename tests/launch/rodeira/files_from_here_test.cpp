@@ -44,6 +44,14 @@ TEST_F(FilesFromHere, EverythingElseStays) {
   EXPECT_EQ(Value("duration_s", "2.5"), "2.5");
 }
 
+TEST_F(FilesFromHere, AMissingFileIsSoughtWhereItsFolderIs) {
+  fs::create_directories(fs::current_path() / "cars");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "cars/kart.yaml"), "\"../here/cars/kart.yaml\"");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "trucks/kart.yaml"), "trucks/kart.yaml");
+  fs::create_directories(folder_.path() / "launch/cars");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "cars/kart.yaml"), "cars/kart.yaml") << "the launch file has this folder";
+}
+
 TEST_F(FilesFromHere, FarFromTheLaunchFileItIsAbsolute) {
   const fs::path deep = folder_.path() / "a/b/c/d/e/f/g/h/i/demo.yaml";
   const auto value = WithFilesFromHere({{"world", "kart.yaml"}}, deep).front().second;

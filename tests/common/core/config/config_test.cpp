@@ -52,6 +52,18 @@ TEST(Config, AWrongUnitIsNamed) {
             "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
 }
 
+TEST(Config, AMissingUnitIsNamed) {
+  const File file = Parsed("heading: 5\nx: 1\n");
+  (void)file.root().Number("heading_deg", {}, 1.0);
+  (void)file.root().Number("heading_of_road", {}, 1.0);
+  (void)file.root().Number("x_m", {}, 1.0);
+  const auto problems = file.Problems();
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].Text(),
+            "folder/car.yaml:1: unknown key 'heading'; the unit is part of the name: 'heading_deg'");
+  EXPECT_EQ(problems[1].Text(), "folder/car.yaml:2: unknown key 'x'; the unit is part of the name: 'x_m'");
+}
+
 TEST(Config, AMisspeltKeyIsNotMissingToo) {
   const auto problems = [](const std::string& text) {
     auto file = File::Parse(text, "car.yaml").value();
@@ -165,6 +177,9 @@ TEST(Config, OverridesReplaceAndAdd) {
   EXPECT_EQ(file.root().Child("b").Child("d").Numbers("e").size(), 2u);
   EXPECT_TRUE(file.Finish().ok());
   EXPECT_EQ(file.Override("a.x", "1").error().Text(), "--set a.x=1: 'a' is '5', no mapping");
+  ASSERT_TRUE(file.Override("a", "car.yaml").ok());
+  EXPECT_EQ(file.Override("a.x", "1").error().Text(),
+            "--set a.x=1: 'a' is 'car.yaml', no mapping; change the key in a copy of that file");
   EXPECT_FALSE(file.Override("a..x", "1").ok());
   EXPECT_FALSE(file.Override("a", "[1").ok());
 }
