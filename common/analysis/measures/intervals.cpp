@@ -46,7 +46,10 @@ std::optional<double> TimeOf(const TimePoint& point, std::span<const DriveEvent>
   }
   interval.unknown = number == 0;
   interval.reason = fmt::format("the recording has no {}", NameOf(point));
-  if (interval.unknown && !names.empty()) interval.reason += base::DidYouMean(point.name, names);
+  if (interval.unknown) {
+    const char* none = point.kind == TimePoint::Kind::kMark ? "; it has no marks" : "; it has no events of a scenario";
+    interval.reason += names.empty() ? none : base::DidYouMean(point.name, names);
+  }
   return std::nullopt;
 }
 

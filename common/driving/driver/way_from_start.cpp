@@ -21,8 +21,16 @@ base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<
     return base::WrongInput("world.no_lane", "this world has no road to start on; the autopilot needs one", place);
   const network::Network& network = *world.network();
   const auto at = network.Locate(start.x_m, start.y_m);
-  if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
-    return base::WrongInput("world.no_lane", "this world has no lane to start on; the autopilot needs one", place);
+  if (!at || at->distance_m > 0.0 || at->lane.lane == 0) {
+    const std::string nearest = at ? fmt::format("; road '{}' is nearest: s_m {:.1f}, t_m {:.1f}",
+                                                 network.roads()[at->lane.road].id(), at->s_m, at->t_m)
+                                   : "";
+    return base::WrongInput("world.no_lane",
+                            fmt::format("the start of the world, x_m {:.2f} and y_m {:.2f}, is on no lane; the "
+                                        "autopilot needs one{}",
+                                        start.x_m, start.y_m, nearest),
+                            place);
+  }
   network::LaneKey lane = at->lane;
   lane.lane = lane_wish.value_or(lane.lane);
   const network::Lane* found = network.Find(lane);

@@ -79,8 +79,9 @@ base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
   if (!run_.clock.recovery().restarts()) {
     return base::Failed(
         "run.cannot_restart",
-        "in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or "
-        "'restart' in its launch file do");
+        fmt::format("node '{}' cannot be restarted: this run keeps no states; start it with a recorder and "
+                    "--set recovery=pause or restart",
+                    name));
   }
   if (run_.launch.node(node).is_live())
     return base::Failed("run.cannot_restart",

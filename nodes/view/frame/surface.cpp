@@ -10,7 +10,8 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr const char* kNoDisplay = "a window is wanted, but there is no display; set DISPLAY, or 'window: never'";
+constexpr const char* kNoDisplay =
+    "a window is wanted, but there is no display; set DISPLAY, or --headless ('window: never')";
 
 // Starts SDL's video with one of its drivers, or nullptr for the display's own.
 bool StartVideo(const char* driver) {
@@ -63,7 +64,7 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
         std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
                                                  : "OpenGL without a display does not start (") +
             SDL_GetError() +
-            (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'"
+            (kind == SurfaceKind::kWindow ? "); set DISPLAY, or --headless ('window: never')"
                                           : "); the packages libegl1 and libegl-mesa0 were expected"));
   }
   surface->video_ = true;

@@ -52,6 +52,8 @@ TEST(Intervals, WhatIsNotThereHasAReason) {
   const Interval wrong = Found("a=mark:begim..end");
   EXPECT_TRUE(wrong.unknown);
   EXPECT_EQ(wrong.reason, "the recording has no mark 'begim'; did you mean 'begin'?");
+  const Interval none = FindInterval(ParseInterval("a=event:x..end").value(), {}, 10.0);
+  EXPECT_EQ(none.reason, "the recording has no event 'x'; it has no events of a scenario");
   const Interval third = Found("a=mark:begin#3..end");
   EXPECT_FALSE(third.unknown);
   EXPECT_EQ(third.reason, "the recording has no mark 'begin' number 3");

@@ -51,5 +51,25 @@ TEST(WayFromStart, AWorldWithoutARoadIsRefused) {
   EXPECT_EQ(way.error().Text(), "launch.yaml: this world has no road to start on; the autopilot needs one");
 }
 
+TEST(WayFromStart, AStartBesideTheLanesIsNamedWithTheNearestRoad) {
+  const auto world = road::World::Parse(R"(rodeira: world/2
+name: one road
+ground: {kind: plane, z_m: 0, surface: asphalt}
+start: {x_m: 50, y_m: 40, heading_deg: 0}
+roads:
+  - id: main
+    start: {x_m: 0, y_m: 0, heading_deg: 0}
+    axis: [line: {length_m: 200}]
+    section: {template: rural}
+)",
+                                        "world.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const auto way = WayFromStart(*world.value(), std::nullopt, "launch.yaml");
+  ASSERT_FALSE(way.ok());
+  EXPECT_EQ(way.error().id.text(), "world.no_lane");
+  for (const char* part : {"x_m 50.00", "y_m 40.00", "road 'main'", "s_m 50.0", "t_m 40.0"})
+    EXPECT_NE(way.error().Text().find(part), std::string::npos) << way.error().Text();
+}
+
 }  // namespace
 }  // namespace rodeira::driver
