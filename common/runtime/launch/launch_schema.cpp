@@ -28,8 +28,8 @@ config::Key KindKey() {
 }
 
 config::Key InputsKey() {
-  config::Key key = config::NamedValueKey("inputs", config::ListKey("", config::TextItem(""), ""),
-                                          "Sources of a topic; by default every other node that publishes it.");
+  const std::string meaning = "Sources of a topic; by default every other node that publishes it.";
+  config::Key key = config::NamedValueKey("inputs", config::ListKey("", config::TextItem(""), meaning), meaning);
   key.sample = "pulse";
   return key;
 }

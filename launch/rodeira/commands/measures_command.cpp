@@ -103,6 +103,8 @@ int Measures(const MeasuresOptions& options) {
     return base::PrintError("rodeira measures", status.error());
   if (auto status = WriteTable(options, spec.value(), rows, facts); !status)
     return base::PrintError("rodeira measures", status.error());
+  if (!options.quiet && !options.out.empty())
+    fmt::print("wrote {} and {}\n", options.out, SidecarOf(options.out).string());
   return 0;
 }
 

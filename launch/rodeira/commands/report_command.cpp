@@ -52,6 +52,7 @@ base::Status WriteReport(const ReportOptions& options) {
 int Report(const ReportOptions& options) {
   CatchInterrupts();
   if (auto status = WriteReport(options); !status) return base::PrintError("rodeira report", status.error());
+  if (!options.quiet) fmt::print("wrote {}\n", options.out);
   return 0;
 }
 

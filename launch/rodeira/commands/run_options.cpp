@@ -24,7 +24,7 @@ void AddRun(CLI::App& app, ChosenCommand& chosen) {
   CLI::Option* record = run->add_option("--record", options->record,
                                         "recording (MCAP); otherwise a dated file in the folder of recordings");
   run->add_flag("--no-record", options->no_record, "no recording")->excludes(record);
-  run->add_option("--seed", options->seed, "seed of everything that is drawn")->check(WholeNumber());
+  run->add_option("--seed", options->seed, "random seed")->check(WholeNumber());
   run->add_option("--set", *sets, "KEY=VALUE: replaces a value of the launch file; KEY=~ takes it out");
   run->add_option("--meta", options->meta, "KEY=VALUE: written into the recording (participant=P07)");
   run->add_flag("--in-process", options->in_process, "the same nodes in one process");

@@ -19,7 +19,7 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
       ->check(Between(0, 100000));
   run->add_option("--for", options->duration_s, "simulated seconds")->check(PositiveSeconds());
   run->add_option("--step", options->step_s, "seconds a step, to 0.1")->check(Between(0.001, 0.1));
-  run->add_option("--seed", options->seed, "seed of everything that is drawn")->check(WholeNumber());
+  run->add_option("--seed", options->seed, "random seed")->check(WholeNumber());
   run->add_option("--driver", options->driver,
                   "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")
       ->check(OneOf({"standard", "motors"}));

@@ -26,11 +26,12 @@ using lockstep::Step;
 // `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
 base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphics) {
   if (!options.from_s)
-    return base::WrongInput("command.missing_option", "--from is missing: where does the branch leave its parent?",
-                            "rodeira replay --branch");
+    return base::WrongInput("command.missing_option",
+                            "--from is missing; name the time in s at which the branch leaves its parent",
+                            "replay --branch");
   if (options.record.empty())
-    return base::WrongInput("command.missing_option", "--record is missing: into which file?",
-                            "rodeira replay --branch");
+    return base::WrongInput("command.missing_option", "--record is missing; name a new file for the branch",
+                            "replay --branch");
   const auto parent = replay::RecordedRun::Open(options.file);
   if (!parent) return parent.error();
   const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());

@@ -88,14 +88,14 @@ int Replay(const ReplayOptions& options) {
         base::WrongInput("command.wrong_combination",
                          fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
                                      wishes == 0 ? "nothing" : "more than one thing"),
-                         "rodeira replay"));
+                         "replay"));
   }
   if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {
     return base::PrintError(
         "rodeira",
         base::WrongInput("replay.outside_of_run",
                          fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s),
-                         "rodeira replay"));
+                         "replay"));
   }
   if (!options.changes.empty() || options.verify) {
     base::TraceCrashes();  // the nodes run in this process
@@ -103,16 +103,15 @@ int Replay(const ReplayOptions& options) {
   }
   if (!options.changes.empty()) return MakeBranch(options);
   if (!options.record.empty())
-    return base::PrintError(
-        "rodeira", base::WrongInput("command.wrong_combination",
-                                    "--record is of a branch: nothing else makes a new recording", "rodeira replay"));
+    return base::PrintError("rodeira",
+                            base::WrongInput("command.wrong_combination",
+                                             "--record is of a branch: nothing else makes a new recording", "replay"));
   if (options.pace)
-    return base::PrintError(
-        "rodeira",
-        base::WrongInput("command.wrong_combination", "--pace is of a branch; --speed is --view's", "rodeira replay"));
-  if (!options.verify && !options.libraries.empty())
     return base::PrintError("rodeira", base::WrongInput("command.wrong_combination",
-                                                        "--library is of --verify and --branch", "rodeira replay"));
+                                                        "--pace is of a branch; --speed is --view's", "replay"));
+  if (!options.verify && !options.libraries.empty())
+    return base::PrintError(
+        "rodeira", base::WrongInput("command.wrong_combination", "--library is of --verify and --branch", "replay"));
   if (!options.verify) return ShowRecording(options);
   const auto libraries = LibrariesOf(options);
   if (!libraries) return base::PrintError("rodeira", libraries.error());
