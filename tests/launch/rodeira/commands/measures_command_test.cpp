@@ -6,10 +6,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <map>
 
+#include "common/analysis/measures/drive_reader.hpp"
 #include "common/core/base/files.hpp"
+#include "idl/aliases.hpp"
 #include "launch/rodeira/commands/report_command.hpp"
 #include "tests/launch/rodeira/replay/replay_fixture.hpp"
 #include "tests/launch/rodeira/said.hpp"
@@ -129,6 +133,8 @@ TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
   EXPECT_THAT(values.at("sdlp_m").at("options"), HasSubstr("denominator=n-1"));
   EXPECT_EQ(values.at("sdlp_m").at("unit"), "m");
   EXPECT_EQ(values.at("steering_entropy_1999").at("missing"), "no interval is named as the baseline");
+  EXPECT_EQ(values.at("pet_conflicts_n").at("value"), "0") << "nothing crosses its lane";
+  EXPECT_EQ(values.at("pet_min_s").at("missing"), "no vehicle crosses or joins the path");
   const auto series = Rows(ReadBack("series.csv"));
   ASSERT_GE(series.size(), 600u);
   int with_leader = 0;
@@ -282,6 +288,115 @@ TEST_F(MeasuresCommand, AnotherWorldAndAHole) {
     if (row.at("measure") != "throttle_mean") continue;
     EXPECT_NEAR(std::stod(row.at("valid_share")), 0.75, 0.01) << "half a second of two is missing";
   }
+}
+
+// Two seconds: each measure is a number, or missing with a reason. Intervals may overlap: two that share half
+// a second have the samples of their three parts.
+TEST_F(MeasuresCommand, AShortDriveAndIntervalsThatOverlap) {
+  const std::string drive = Drive(2.0);
+  MeasuresOptions options;
+  options.recordings = {drive};
+  options.intervals = {
+      "all=start..end",          "early=0..1.5", "late=1..end", "first=0..1", "both=1..1.5", "last=1.5..end",
+      "fast=while speed_mps > 1"};
+  options.out = Path("long.csv");
+  options.long_format = true;
+  const Said said = Of(options);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  std::map<std::string, int> samples;
+  std::size_t found = 0, missing = 0;
+  for (const auto& row : Rows(ReadBack("long.csv"))) {
+    EXPECT_NE(row.at("value").empty(), row.at("missing").empty()) << row.at("interval") << " " << row.at("measure");
+    (row.at("value").empty() ? missing : found) += 1;
+    if (row.at("value").empty()) continue;
+    EXPECT_TRUE(std::isfinite(std::stod(row.at("value")))) << row.at("measure");
+    if (row.at("measure") == "speed_max_mps") samples[row.at("interval")] = std::stoi(row.at("n"));
+  }
+  EXPECT_GT(found, 100u);
+  EXPECT_GT(missing, 100u) << "filters and lanes have too little";
+  ASSERT_EQ(samples.size(), 7u);
+  EXPECT_EQ(samples["early"], samples["first"] + samples["both"]);
+  EXPECT_EQ(samples["late"], samples["both"] + samples["last"]);
+  EXPECT_EQ(samples["early"] + samples["late"] - samples["both"], samples["all"]);
+}
+
+// Names of before in the recording's IDL, and no embedded world: the first is read, the second a sentence.
+TEST_F(MeasuresCommand, AVersionBeforeAndAWorldThatDoesNotLoad) {
+  const std::string drive = Drive(2.0);
+  const std::string before = Path("before.mcap");
+  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
+  CopyRecording(
+      drive, before, [](const std::string&, record::TextMap&) {}, all, [](const std::string&) { return true; }, {},
+      [](const std::string&, std::string& idl) {
+        for (const auto& [now, then] : {std::pair("SampleHeader", "Header"), std::pair("fuel_used_kg", "fuel_kg")}) {
+          for (auto at = idl.find(now); at != std::string::npos; at = idl.find(now)) idl.replace(at, strlen(now), then);
+        }
+      });
+  const auto table = [&](const std::string& file) {
+    MeasuresOptions options;
+    options.recordings = {file};
+    options.out = Path("table.csv");
+    const Said said = Of(options);
+    EXPECT_EQ(said.status, 0) << said.errors;
+    auto row = Rows(ReadBack("table.csv")).at(0);
+    row.erase("file");
+    return row;
+  };
+  EXPECT_EQ(table(before), table(drive));
+
+  MeasuresOptions options;
+  options.recordings = {Copied(
+      drive, [](const std::string&, record::TextMap&) {}, all,
+      [](const std::string& name) { return name.find("worlds/") == std::string::npos; })};
+  const Said none = Of(options);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(std::count(none.errors.begin(), none.errors.end(), '\n'), 1) << none.errors;
+  EXPECT_THAT(none.errors, HasSubstr("worlds/"));
+}
+
+// On a recording with events: from an event on for some seconds, by speed, lane, stations and junction. The intervals
+// are those of the time series.
+TEST_F(MeasuresCommand, IntervalsOfEventsAndConditions) {
+  const std::string drive = Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "12"});
+  const auto run = replay::RecordedRun::Open(drive);
+  ASSERT_TRUE(run.ok());
+  const auto events = measures::ReadEvents(run.value().reader(), idl::Aliases());
+  ASSERT_TRUE(events.ok());
+  const auto at = std::ranges::find(events.value(), "traffic.speed", &measures::DriveEvent::name);
+  ASSERT_NE(at, events.value().end()) << "the story slows the car ahead after 6 s";
+  const measures::DriveEvent& first = *at;
+  MeasuresOptions options;
+  options.recordings = {drive};
+  options.intervals = {
+      "event=event:" + first.name + "..+1.5",  "fast=while speed_mps > 5",     "lane=while lane < 0",
+      "stations=while s_m >= 0 and s_m < 1e6", "junction=while junction == 1", "road=while junction == 0"};
+  options.series = Path("series.csv");
+  options.out = Path("table.csv");
+  const Said said = Of(options);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  const auto series = Rows(ReadBack("series.csv"));
+  std::map<std::string, double> seconds;  // of all intervals of a name
+  for (const auto& row : Rows(ReadBack("table.csv"))) {
+    if (row.at("from_s").empty()) continue;
+    const std::string name = row.at("interval").substr(0, row.at("interval").find('#'));
+    if (name == "event") {
+      EXPECT_NEAR(std::stod(row.at("from_s")), first.time_s, 1e-9);
+    }
+    seconds[name] += std::stod(row.at("to_s")) - std::stod(row.at("from_s"));
+  }
+  std::map<std::string, double> expected;
+  for (const auto& row : series) {
+    const auto number = [&](const char* column) { return row.at(column).empty() ? -1e9 : std::stod(row.at(column)); };
+    if (number("speed_mps") > 5.0) expected["fast"] += 0.01;
+    if (number("lane") < 0.0 && !row.at("lane").empty()) expected["lane"] += 0.01;
+    if (number("s_m") >= 0.0) expected["stations"] += 0.01;
+    if (number("junction") == 1.0) expected["junction"] += 0.01;
+    if (number("junction") == 0.0) expected["road"] += 0.01;
+  }
+  EXPECT_NEAR(seconds["event"], 1.5, 1e-9);
+  for (const char* name : {"fast", "lane", "stations", "junction", "road"})
+    EXPECT_NEAR(seconds[name], expected[name], 1e-6) << name;
+  EXPECT_GT(expected["fast"] + expected["road"], 5.0);
 }
 
 TEST_F(MeasuresCommand, ListAndExplain) {
