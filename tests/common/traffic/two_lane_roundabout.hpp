@@ -14,7 +14,7 @@
 namespace rodeira::traffic {
 
 // A roundabout of two lanes with four arms: roads in0 … in3 of two lanes lead to it, out0 … out3 of one lane leave it,
-// from the ring's outer lane only; ring0 … ring3 lie between the arms, 24 m long. In junctions nobody changes lanes.
+// from the ring's outer lane only; ring0 … ring3 lie between the arms, 24 m long. In junctions no lanes are changed.
 class RoundaboutOfTwoLanes {
  public:
   static std::shared_ptr<const network::Network> Network() { return opendrive::MustRead(Text()); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A roundabout of two lanes whose exits begin at the outer lane: vehicles on the inner one change lanes in the ring.
+// A roundabout of two lanes that is left from its outer lane alone: vehicles on the inner one change lanes in the ring.
 #include <gtest/gtest.h>
 
 #include <cstdint>
