@@ -133,15 +133,15 @@ std::vector<MeasureInfo> EncounterMeasures() {
        [](const DriveCut& cut, const OptionValues& o) {
          return OfGaps(cut, o, "1", [](const Gaps&, const Times&, const Times& rejected) { return CountOf(rejected); });
        }},
-      {"gap_accepted_min_s", kEncounters, "shortest gap that was taken", "from the rear of one to the front of the next",
-       traps, kTroutbeck, kGapOptions,
+      {"gap_accepted_min_s", kEncounters, "shortest gap that was taken",
+       "from the rear of one to the front of the next", traps, kTroutbeck, kGapOptions,
        [](const DriveCut& cut, const OptionValues& o) {
          return OfGaps(cut, o, "s", [](const Gaps&, const Times& accepted, const Times&) {
            return FoundOr(Minimum(accepted), "no gap was accepted", "s", accepted.size(), accepted.size());
          });
        }},
-      {"gap_rejected_max_s", kEncounters, "longest gap that was let pass", "from the rear of one to the front of the next",
-       traps, kTroutbeck, kGapOptions,
+      {"gap_rejected_max_s", kEncounters, "longest gap that was let pass",
+       "from the rear of one to the front of the next", traps, kTroutbeck, kGapOptions,
        [](const DriveCut& cut, const OptionValues& o) {
          return OfGaps(cut, o, "s", [](const Gaps&, const Times&, const Times& rejected) {
            return FoundOr(Maximum(rejected), "no gap was rejected", "s", rejected.size(), rejected.size());

@@ -12,7 +12,7 @@ namespace rodeira::measures {
 // cognitive load: 2 Hz and 0.1 degrees.
 struct ReversalOptions {
   double cutoff_hz = 0.6;
-  double gap_deg = 3.0;  // of the steering wheel; a reversal is larger
+  double gap_deg = 3.0;                    // of the steering wheel; a reversal is larger
   double padding_s = kPaddingOfAuthors_s;  // at each end; of one time at every rate
 };
 

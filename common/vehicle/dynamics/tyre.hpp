@@ -29,7 +29,7 @@ struct TyreSettings {
   double resistance_share = 1.0;
   double slip_share = 1.0;
 };
-inline constexpr double kMostPressureShare = 1.5;
+inline constexpr double kMaxPressureShare = 1.5;
 
 // The tyres of the axles on their wheels, in the order of WheelIndex: one that was measured on the other side of a car
 // is mirrored.
