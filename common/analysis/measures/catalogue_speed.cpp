@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "common/analysis/measures/acceleration.hpp"
 #include "common/analysis/measures/catalogue.hpp"
 #include "common/analysis/measures/speed.hpp"
@@ -34,6 +36,16 @@ constexpr const char* kAccelerationTraps = "gear changes are jerks of the car an
 template <Measure (*Function)(Series, double, const AccelerationOptions&)>
 Measure AccelerationIn(const DriveCut& cut, const OptionValues& o) {
   return Function(cut(cut.drive.speed_mps), cut.drive.rate_hz, AccelerationOf(o));
+}
+
+// Up to the end of the interval, where the next one begins: the distances of neighbours add up.
+Measure DistanceIn(const DriveCut& cut, const OptionValues&) {
+  const std::vector<double>& speed_mps = cut.drive.speed_mps;
+  Measure distance = Distance(cut(speed_mps), cut.drive.rate_hz);
+  if (!distance.value || cut.to >= speed_mps.size()) return distance;
+  const double last_m = 0.5 * (speed_mps[cut.to - 1] + speed_mps[cut.to]) / cut.drive.rate_hz;
+  if (!std::isnan(last_m)) *distance.value += last_m;
+  return distance;
 }
 
 }  // namespace
@@ -122,7 +134,7 @@ std::vector<MeasureInfo> SpeedMeasures() {
        "negative in reverse",
        "SAE J2944",
        {},
-       [](const DriveCut& cut, const OptionValues&) { return Distance(cut(cut.drive.speed_mps), cut.drive.rate_hz); }},
+       DistanceIn},
       {"stops_n",
        family,
        "number of stops",

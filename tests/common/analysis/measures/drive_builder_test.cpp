@@ -240,5 +240,24 @@ TEST(DriveBuilder, WithoutRoadsLanesAreMissing) {
   EXPECT_FALSE(FindMeasure("sdlp_m").value()->compute(cut, {FindMeasure("sdlp_m").value()->options, {}}).value);
 }
 
+// The distances of neighbouring half-open intervals add up to that of both, and that is the way of the positions.
+TEST(DriveBuilder, DistancesOfNeighboursAddUp) {
+  DriveBuilder builder(nullptr, kRate);
+  builder.SetFootprint(kLength, kFront, kWidth);
+  double x_m = 0.0;
+  for (std::size_t k = 0; k < 401; ++k) {
+    const double speed_mps = 10.0 + 0.02 * static_cast<double>(k);
+    builder.AddSubject(k, {x_m, 0.0, 0.0, 0.0, speed_mps});
+    x_m += (speed_mps + 0.01) / kRate;
+  }
+  const Drive d = builder.Finish();
+  const auto distance_m = [&](std::size_t from, std::size_t to) {
+    const MeasureInfo& info = *FindMeasure("distance_m").value();
+    return info.compute({d, from, to, std::nullopt}, {info.options, {}}).value.value();
+  };
+  EXPECT_NEAR(distance_m(0, 401), 56.0, 1e-9) << "4 s from 10 to 18 m/s";
+  EXPECT_NEAR(distance_m(0, 150) + distance_m(150, 210) + distance_m(210, 401), distance_m(0, 401), 1e-9);
+}
+
 }  // namespace
 }  // namespace rodeira::measures
