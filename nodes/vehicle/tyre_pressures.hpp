@@ -16,6 +16,7 @@ class TyrePressures {
   void Change(const scenario::TyreChoice& tyre, double to_share);
   // At the end of the step.
   const std::array<double, dynamics::kWheels>& Step(double dt_s);
+  const std::array<double, dynamics::kWheels>& now() const { return share_; }
   // Whether one has ever changed.
   bool changed() const { return changed_; }
 

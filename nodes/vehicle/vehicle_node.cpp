@@ -91,15 +91,18 @@ class VehicleNode final : public lockstep::Node {
 
   void Save(base::StateWriter& out) const override {
     out.Put("model", *model_);
-    out.Put("gust", gust_);
-    out.Put("pressures", pressures_);
     if (collisions_) out.Put("collisions", *collisions_);
+    if (gust_.blows()) out.Put("gust", gust_);
+    if (pressures_.changed()) out.Put("pressures", pressures_);
   }
   void Restore(base::StateReader& in) override {
     in.Get("model", *model_);
-    in.Get("gust", gust_);
-    in.Get("pressures", pressures_);
     if (collisions_) in.Get("collisions", *collisions_);
+    gust_ = {};
+    pressures_ = {};
+    if (in.Has("gust")) in.Get("gust", gust_);
+    if (in.Has("pressures")) in.Get("pressures", pressures_);
+    model_->SetTyrePressures(pressures_.now());
   }
   bool can_save() const override { return model_->can_save(); }
 

@@ -132,7 +132,7 @@ TEST_F(Refusal, ANodeToBeStartedAgainThatCannotSaveItsState) {
 
 TEST_F(Refusal, AWindowWithoutADisplay) {
   const std::string said = Set("nodes.view.config.window", "always");
-  EXPECT_THAT(said, HasSubstr("a window is wanted, but there is no display; set DISPLAY, or 'window: never'"));
+  EXPECT_THAT(said, HasSubstr("a window is wanted, but there is no display; set DISPLAY, or --headless"));
 }
 
 TEST(Refused, TheStartWindowWithoutADisplay) {

@@ -36,6 +36,11 @@ bool StateReader::Expect(std::string_view name, FieldShape shape, FieldScalar sc
   return true;
 }
 
+bool StateReader::Has(std::string_view name) const {
+  ByteReader ahead = in_;
+  return problem_.empty() && ahead.ok() && ahead.remaining() > 0 && ahead.GetString() == name && ahead.ok();
+}
+
 void StateReader::Fail(std::string_view name, std::string_view found) {
   if (problem_.empty()) problem_ = fmt::format("state field '{}' was expected, found {}", name, found);
 }

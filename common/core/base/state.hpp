@@ -179,6 +179,11 @@ class StateReader {
     if (Expect(name, FieldShape::kPart, FieldScalar::kNone, 0)) part.Restore(*this);
   }
 
+  /// Says whether the next field has this name: of a field that is written only where it is needed.
+  /// @param name name of the field
+  /// @return false also at the end of the snapshot, and after an error
+  bool Has(std::string_view name) const;
+
   /// Ends the reading.
   /// @return wrong input if a field did not fit, the snapshot ends within a field, or bytes are left over
   Status Finish() const;

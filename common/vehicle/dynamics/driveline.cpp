@@ -85,6 +85,7 @@ DrivelineMotion StepAxles(const EngineSettings& settings, const Engine& engine, 
   motion.clutch_in_W = motion.clutch_torque_Nm * mean[kEngine];
   motion.clutch_heat_W = motion.clutch_in_W - motion.clutch_out_W;
   if constexpr (kAxles == 2) {
+    motion.drives_all = true;
     motion.centre_locking_torque_Nm = impulse[kCentre] / dt_s;
     motion.locking_heat_W -= 0.25 * motion.centre_locking_torque_Nm * (mean[0] + mean[1] - mean[2] - mean[3]);
     motion.drive_torque_Nm += 0.25 * motion.centre_locking_torque_Nm;
@@ -120,46 +121,53 @@ double StepFreeWheel(double wheel_radps, double inertia_kgm2, double road_torque
   return free > 0.0 ? free - most : free + most;
 }
 
-void AxleMotion::Save(base::StateWriter& writer) const {
-  writer.Put("drive_torque_Nm", drive_torque_Nm);
-  writer.Put("locking_torque_Nm", locking_torque_Nm);
-  writer.Put("wheel_radps", std::span<const double>(wheel_radps));
-  writer.Put("friction_torque_Nm", std::span<const double>(friction_torque_Nm));
-  writer.Put("loss_torque_Nm", std::span<const double>(loss_torque_Nm));
-}
-
-void AxleMotion::Restore(base::StateReader& reader) {
-  reader.Get("drive_torque_Nm", drive_torque_Nm);
-  reader.Get("locking_torque_Nm", locking_torque_Nm);
-  reader.Get("wheel_radps", std::span<double>(wheel_radps));
-  reader.Get("friction_torque_Nm", std::span<double>(friction_torque_Nm));
-  reader.Get("loss_torque_Nm", std::span<double>(loss_torque_Nm));
-}
-
+// The fields of cars with one driven axle, in the order that they have always had; those of a second axle follow only
+// where it is driven.
 void DrivelineMotion::Save(base::StateWriter& writer) const {
-  AxleMotion::Save(writer);
-  writer.Put("rear", rear);
   writer.Put("engine_radps", engine_radps);
+  writer.Put("drive_torque_Nm", drive_torque_Nm);
   writer.Put("clutch_torque_Nm", clutch_torque_Nm);
   writer.Put("clutch_slip_radps", clutch_slip_radps);
   writer.Put("clutch_in_W", clutch_in_W);
   writer.Put("clutch_out_W", clutch_out_W);
   writer.Put("clutch_heat_W", clutch_heat_W);
+  writer.Put("locking_torque_Nm", locking_torque_Nm);
   writer.Put("locking_heat_W", locking_heat_W);
+  writer.Put("wheel_radps", std::span<const double>(wheel_radps));
+  writer.Put("friction_torque_Nm", std::span<const double>(friction_torque_Nm));
+  writer.Put("loss_torque_Nm", std::span<const double>(loss_torque_Nm));
+  if (!drives_all) return;
   writer.Put("centre_locking_torque_Nm", centre_locking_torque_Nm);
+  writer.Put("rear_drive_torque_Nm", rear.drive_torque_Nm);
+  writer.Put("rear_locking_torque_Nm", rear.locking_torque_Nm);
+  writer.Put("rear_wheel_radps", std::span<const double>(rear.wheel_radps));
+  writer.Put("rear_friction_torque_Nm", std::span<const double>(rear.friction_torque_Nm));
+  writer.Put("rear_loss_torque_Nm", std::span<const double>(rear.loss_torque_Nm));
 }
 
 void DrivelineMotion::Restore(base::StateReader& reader) {
-  AxleMotion::Restore(reader);
-  reader.Get("rear", rear);
   reader.Get("engine_radps", engine_radps);
+  reader.Get("drive_torque_Nm", drive_torque_Nm);
   reader.Get("clutch_torque_Nm", clutch_torque_Nm);
   reader.Get("clutch_slip_radps", clutch_slip_radps);
   reader.Get("clutch_in_W", clutch_in_W);
   reader.Get("clutch_out_W", clutch_out_W);
   reader.Get("clutch_heat_W", clutch_heat_W);
+  reader.Get("locking_torque_Nm", locking_torque_Nm);
   reader.Get("locking_heat_W", locking_heat_W);
+  reader.Get("wheel_radps", std::span<double>(wheel_radps));
+  reader.Get("friction_torque_Nm", std::span<double>(friction_torque_Nm));
+  reader.Get("loss_torque_Nm", std::span<double>(loss_torque_Nm));
+  drives_all = reader.Has("centre_locking_torque_Nm");
+  rear = {};
+  centre_locking_torque_Nm = 0.0;
+  if (!drives_all) return;
   reader.Get("centre_locking_torque_Nm", centre_locking_torque_Nm);
+  reader.Get("rear_drive_torque_Nm", rear.drive_torque_Nm);
+  reader.Get("rear_locking_torque_Nm", rear.locking_torque_Nm);
+  reader.Get("rear_wheel_radps", std::span<double>(rear.wheel_radps));
+  reader.Get("rear_friction_torque_Nm", std::span<double>(rear.friction_torque_Nm));
+  reader.Get("rear_loss_torque_Nm", std::span<double>(rear.loss_torque_Nm));
 }
 
 }  // namespace rodeira::dynamics

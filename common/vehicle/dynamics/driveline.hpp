@@ -71,20 +71,18 @@ struct AxleMotion {
   std::array<double, 2> wheel_torque_Nm() const {
     return {shaft_torque_Nm()[0] + loss_torque_Nm[0], shaft_torque_Nm()[1] + loss_torque_Nm[1]};
   }
-
-  void Save(base::StateWriter& writer) const;
-  void Restore(base::StateReader& reader);
 };
 
 // Of the only driven axle or, with all wheels driven, of the front one.
 struct DrivelineMotion : AxleMotion {
   double engine_radps = 0.0;
-  double locking_heat_W = 0.0;            // of the plates of all differentials
-  double clutch_torque_Nm = 0.0;          // from engine to gearbox, either sign
-  double clutch_slip_radps = 0.0;         // at the end of the step
-  double clutch_in_W = 0.0;               // torque × mean speed of the engine
-  double clutch_out_W = 0.0;              // torque × mean speed of the gearbox's input
-  double clutch_heat_W = 0.0;             // in - out
+  double locking_heat_W = 0.0;     // of the plates of all differentials
+  double clutch_torque_Nm = 0.0;   // from engine to gearbox, either sign
+  double clutch_slip_radps = 0.0;  // at the end of the step
+  double clutch_in_W = 0.0;        // torque × mean speed of the engine
+  double clutch_out_W = 0.0;       // torque × mean speed of the gearbox's input
+  double clutch_heat_W = 0.0;      // in - out
+  bool drives_all = false;
   double centre_locking_torque_Nm = 0.0;  // front axle - rear axle, beside their shares
   AxleMotion rear;
 

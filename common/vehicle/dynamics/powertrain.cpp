@@ -51,7 +51,8 @@ void Powertrain::Start(const PowertrainSettings& settings, double wheel_radps) {
   engine_.Start(std::max(settings.engine.idle_radps, turned));
   motion_.engine_radps = engine_.speed_radps();
   motion_.wheel_radps = {wheel_radps, wheel_radps};
-  if (settings.driven == DrivenWheels::kAll) motion_.rear.wheel_radps = motion_.wheel_radps;
+  motion_.drives_all = settings.driven == DrivenWheels::kAll;
+  if (motion_.drives_all) motion_.rear.wheel_radps = motion_.wheel_radps;
   motion_.clutch_slip_radps = engine_.speed_radps() - turned;
 }
 

@@ -256,6 +256,7 @@ TEST_F(Requests, AScenarioFileLetsWindAndAFlatTyreMeetACar) {
   for (const std::string event : {"name: vehicle.gust, gust: ego 90 0.6, speed_mps: 50",
                                   "name: vehicle.tyre_pressure, tyre: ego front_left 0.2, pressure_share: 0"}) {
     SCOPED_TRACE(event);
+    std::filesystem::remove(File());
     const Driven run = Drive(write(event), 1500, {});
     const auto moved = [&](Step step) {
       const auto &with = run.car.at(step).position_w_m(), &without = calm.car.at(step).position_w_m();

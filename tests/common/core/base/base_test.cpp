@@ -57,6 +57,30 @@ struct Part {
   }
 };
 
+// A field that is written only where it is needed: a reader asks for it, and nothing is read by that.
+TEST(State, AReaderAsksForTheNextField) {
+  StateWriter with, without;
+  for (StateWriter* writer : {&with, &without}) writer->Put("speed", 3.0);
+  with.Put("wind", 2.0);
+  StateReader found(with.bytes()), absent(without.bytes());
+  double speed = 0.0, wind = 0.0;
+  EXPECT_FALSE(found.Has("wind")) << "another field is next";
+  EXPECT_TRUE(found.Has("speed"));
+  found.Get("speed", speed);
+  EXPECT_TRUE(found.Has("wind"));
+  EXPECT_TRUE(found.Has("wind")) << "asked twice";
+  found.Get("wind", wind);
+  EXPECT_EQ(wind, 2.0);
+  EXPECT_FALSE(found.Has("wind"));
+  EXPECT_TRUE(found.Finish().ok());
+  absent.Get("speed", speed);
+  EXPECT_FALSE(absent.Has("wind"));
+  EXPECT_TRUE(absent.Finish().ok());
+  absent.Get("wind", wind);
+  EXPECT_FALSE(absent.Has("wind")) << "after an error";
+  EXPECT_FALSE(absent.Finish().ok());
+}
+
 TEST(State, ComesBackAsItWas) {
   const Part part{2.5, {1, -2, 3}};
   const std::array<double, 2> pair{4.0, 5.0};
