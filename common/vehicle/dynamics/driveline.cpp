@@ -63,7 +63,9 @@ DrivelineMotion StepAxles(const EngineSettings& settings, const Engine& engine, 
   motion.engine_radps = after[kEngine];
   motion.clutch_torque_Nm = -impulse[kClutch] / dt_s;
   const Rotors mean = 0.5 * (before + after);
-  double turns_radps = 0.0;  // of the gearbox, over its ratio
+  // Sums begin with -0.0: of one axle they have its bits, the sign of a zero too.
+  double turns_radps = -0.0;  // of the gearbox, over its ratio
+  motion.clutch_out_W = motion.locking_heat_W = -0.0;
   for (int k = 0; k < kAxles; ++k) {
     AxleMotion& moved = k == 0 ? static_cast<AxleMotion&>(motion) : motion.rear;
     for (std::size_t i = 0; i < 2; ++i) {

@@ -87,7 +87,7 @@ struct DrivelineMotion : AxleMotion {
   AxleMotion rear;
 
   // Of all drive shafts together.
-  double drive_sum_Nm() const { return 2.0 * drive_torque_Nm + 2.0 * rear.drive_torque_Nm; }
+  double drive_sum_Nm() const { return 2.0 * (drives_all ? drive_torque_Nm + rear.drive_torque_Nm : drive_torque_Nm); }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

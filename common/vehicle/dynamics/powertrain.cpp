@@ -35,7 +35,7 @@ std::array<double, 2> AxleShares(const PowertrainSettings& settings) {
 }
 
 double TurningOf(const PowertrainSettings& settings, const std::array<double, 4>& wheel_radps) {
-  double turning = 0.0;
+  double turning = -0.0;  // of one axle it has its bits
   for (std::size_t axle = 0; axle < 2; ++axle) {
     if (!Drives(settings.driven, axle)) continue;
     turning += AxleShares(settings)[axle] * (0.5 * (wheel_radps[2 * axle] + wheel_radps[2 * axle + 1]));
