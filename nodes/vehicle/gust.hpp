@@ -9,8 +9,8 @@ namespace rodeira::nodes {
 
 // What wind of this velocity (in W, m/s) adds to the air's resistance on a car, across it, as on a plate of its side:
 // rho / 2 × area of the side × its speed through the air. The area is 0.8 × length × height; the force acts at half the
-// height and, at a tenth of the length before the middle of the wheelbase, as on common bodies (W.-H. Hucho,
-// Aerodynamics of Road Vehicles, chapter 5). What the wind does along the car is left out.
+// height and at a tenth of the length before the middle of the wheelbase. These are round numbers for a common body,
+// not measured on a car. What the wind does along the car is left out.
 dynamics::Wrench SideWind(const dynamics::VehicleState& car, const dynamics::VehicleDimensions& dimensions,
                           const Eigen::Vector2d& wind_W_mps);
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <thread>
 
+#include "tests/common/runtime/lockstep/failing_node.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
 
 namespace rodeira::lockstep {
@@ -147,28 +148,13 @@ TEST(Law, MutuallyPrimePeriodsAndLongDelays) {
   ExpectLawful(roster, contents, 2310);
 }
 
-class Failing final : public Node {
- public:
-  base::Status Initialise(Outbox& outbox) override {
-    outbox.Put("a", law::Payload(1));
-    return {};
-  }
-  base::Status Step(const StepInfo& step, const Inbox&, Outbox& outbox) override {
-    if (step.step == 40) return base::Failed("vehicle.not_finite", "the spring broke");
-    outbox.Put("a", law::Payload(2));
-    return {};
-  }
-  void Save(base::StateWriter&) const override {}
-  void Restore(base::StateReader&) override {}
-};
-
 TEST(Law, AFailingNodeStopsTheRunAndIsNamed) {
   const auto roster =
       Roster::Create(1'000'000, 20,
                      {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
                       {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
           .value();
-  Failing car;
+  FailingNode car(40, base::Failed("vehicle.not_finite", "the spring broke"));
   law::Rememberer sink(roster, 1);
   InProcessSettings settings;
   settings.last_step = 1000;
@@ -208,7 +194,7 @@ TEST(Law, WhatASinkTookInWhileTheRunWasBrokenOffItTakesOnce) {
                      {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
                       {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
           .value();
-  Failing car;
+  FailingNode car(40, base::Failed("vehicle.not_finite", "the spring broke"));
   law::Rememberer remembers(roster, 1);
   BusySink sink(remembers);
   InProcessSettings settings;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "tests/common/runtime/lockstep/failing_node.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
 
 namespace rodeira::lockstep {
@@ -78,22 +79,6 @@ TEST(SteppedRun, TheSameNodesBeginAgainWithTheSameBits) {
   }));
 }
 
-// Fails at its activation in step 6.
-class Failing final : public Node {
- public:
-  base::Status Initialise(Outbox& outbox) override {
-    outbox.Put("a", law::Payload(1));
-    return {};
-  }
-  base::Status Step(const StepInfo& step, const Inbox&, Outbox& outbox) override {
-    if (step.step == 6) return base::WrongInput("node.wrong", "six was found");
-    outbox.Put("a", law::Payload(2));
-    return {};
-  }
-  void Save(base::StateWriter&) const override {}
-  void Restore(base::StateReader&) override {}
-};
-
 TEST(SteppedRun, AFailureNamesNodeAndStepAndEndsTheOthers) {
   NodeSpec source, sink;
   source.name = "source", sink.name = "sink";
@@ -101,7 +86,7 @@ TEST(SteppedRun, AFailureNamesNodeAndStepAndEndsTheOthers) {
   source.outputs = {"a"};
   sink.inputs = {{"a", PortKind::kEvent, {"source"}}};
   const Roster roster = Roster::Create(1'000'000, 10, {source, sink}).value();
-  Failing failing;
+  FailingNode failing(6, base::WrongInput("node.wrong", "six was found"));
   law::Rememberer rememberer(roster, 1);
   SteppedRun run(roster, {&failing, &rememberer}, {});
   ASSERT_TRUE(run.Start().ok());
