@@ -102,6 +102,60 @@ traci.close()
                 compared += 1
         self.assertGreater(compared, 150)
 
+    def test_time_to_collision_and_drac_after_a_merge(self):
+        """A slow car joins the lane ahead of a faster one. SUMO's network as OpenDRIVE gives lanes and gaps here."""
+        nodes = ("<node id='c' x='0' y='0' type='priority'/><node id='w' x='-500' y='0'/><node id='o' x='500' y='0'/>"
+                 "<node id='s' x='-350' y='-350'/>")
+        edges = "".join(f"<edge id='{a}{b}' from='{a}' to='{b}' numLanes='1' speed='60'/>"
+                        for a, b in (("w", "c"), ("c", "o"), ("s", "c")))
+        self.net(nodes, edges, "<connection from='wc' to='co'/><connection from='sc' to='co'/>")
+        subprocess.run(["netconvert", "-s", "a.net.xml", "--opendrive-output", "a.xodr"], cwd=self.folder, check=True,
+                       capture_output=True)
+        fast, slow = 15.0, 10.0
+        cars = ""
+        for name, way, speed in (("own", "wc co", fast), ("other", "sc co", slow)):
+            cars += (f"<vType id='{name}' length='{LENGTH_M}' width='{WIDTH_M}' maxSpeed='{speed}' speedDev='0' "
+                     "accel='50' decel='50' sigma='0' tau='0.1' minGap='0' jmIgnoreFoeProb='1' jmIgnoreFoeSpeed='100' "
+                     f"jmIgnoreJunctionFoeProb='1'/><route id='{name}' edges='{way}'/>")
+        for name, at, speed in (("own", 200, fast), ("other", 314, slow)):
+            cars += (f"<vehicle id='{name}' type='{name}' route='{name}' depart='0' departSpeed='{speed}' "
+                     f"departPos='{at}'><param key='has.ssm.device' value='true'/>"
+                     "<param key='device.ssm.file' value='ssm.xml'/><param key='device.ssm.measures' value='TTC DRAC'/>"
+                     "<param key='device.ssm.thresholds' value='100 0'/>"
+                     "<param key='device.ssm.trajectories' value='true'/>"
+                     "<param key='device.ssm.range' value='600'/></vehicle>")
+        (self.folder / "a.rou.xml").write_text(f"<routes>{cars}</routes>")
+        done = subprocess.run(["sumo", "-n", "a.net.xml", "-r", "a.rou.xml", "--step-length", str(STEP_S), "--end",
+                               "60", "--no-step-log", "--no-warnings", "--collision.action", "none"], cwd=self.folder,
+                              capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        conflict = next(one for one in ElementTree.parse(self.folder / "ssm.xml").getroot().findall("conflict")
+                        if one.get("ego") == "own")
+
+        def track(tag):
+            return np.array([[float(number) for number in point.split(",")[:2]]
+                             for point in conflict.find(tag).get("values").split()])
+        own, other = track("egoPosition"), track("foePosition")  # of the fronts
+        speeds = np.hypot(*track("egoVelocity").T)  # at the end it brakes behind the slow one
+        world = rodeira.World(self.folder / "a.xodr")
+        here, there = world.locate_all(*own.T), world.locate_all(*other.T)
+        merged = (here["road"] == there["road"]) & (here["road"] >= 0) & (here["lane"] == there["lane"])
+        gaps = np.where(merged, there["s_m"] - LENGTH_M - here["s_m"], np.nan)
+        far = {"max_gap_m": 200, "max_time_gap_s": 30}
+        compared = 0
+        for k, (ttc, drac) in enumerate(zip(conflict.find("TTCSpan").get("values").split(),
+                                            conflict.find("DRACSpan").get("values").split())):
+            if not gaps[k] > 1.5 or ttc == "NA":  # SUMO's two decimals of speeds say less of a smaller gap
+                continue
+            table = {"time_s": np.arange(3) * STEP_S, "speed_mps": np.full(3, speeds[k]), "leader_id": np.ones(3),
+                     "leader_speed_mps": np.full(3, slow), "leader_gap_m": np.full(3, gaps[k])}
+            got = rodeira.measures(table, ["ttc_min_s", "drac_max_mps2"],
+                                   options={"ttc_min_s": far, "drac_max_mps2": far})
+            self.assertAlmostEqual(got["ttc_min_s"][0], float(ttc), delta=0.012, msg=f"sample {k}, gap {gaps[k]}")
+            self.assertAlmostEqual(got["drac_max_mps2"][0], float(drac), delta=0.006 + 0.02 * float(drac))
+            compared += 1
+        self.assertGreater(compared, 20)
+
     def crossing(self, own, other, length_m, width_m, braking_mps2):
         """What SUMO writes of two cars that it drives itself across one another, each at its speed from its distance:
         the conflict of the first one. (Of cars moved by moveToXY its device counts no way on a junction's lanes, so

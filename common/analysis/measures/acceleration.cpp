@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/analysis/measures/statistics.hpp"
+#include "common/core/base/assert.hpp"
 
 namespace rodeira::measures {
 namespace {
@@ -67,6 +68,23 @@ Measure RmsJerk(Series speed_mps, double rate_hz, const AccelerationOptions& opt
   const std::size_t n = CountValid(square);
   if (!mean) return NotFound(kNoAcceleration, "m/s3", n, speed_mps.size(), AccelerationUsed(options, false));
   return Found(std::sqrt(*mean), "m/s3", n, speed_mps.size(), AccelerationUsed(options, false));
+}
+
+Measure DiscomfortShare(Series speed_mps, Series yaw_radps, double rate_hz, const DiscomfortOptions& options) {
+  RODEIRA_ASSERT(speed_mps.size() == yaw_radps.size());
+  const AccelerationOptions filter{.cutoff_hz = options.cutoff_hz};
+  const std::vector<double> along_mps2 = SmoothAcceleration(speed_mps, rate_hz, filter);
+  UsedOptions used = AccelerationUsed(filter, false);
+  used.push_back(Used({{"threshold_mps2", options.threshold_mps2}}).front());
+  std::size_t n = 0, beyond = 0;
+  for (std::size_t i = 0; i < speed_mps.size(); ++i) {
+    const double size_mps2 = std::hypot(along_mps2[i], speed_mps[i] * yaw_radps[i]);
+    if (std::isnan(size_mps2)) continue;
+    ++n;
+    if (size_mps2 > options.threshold_mps2) ++beyond;
+  }
+  if (n == 0) return NotFound("no acceleration or no yaw rate", "1", 0, speed_mps.size(), std::move(used));
+  return Found(static_cast<double>(beyond) / static_cast<double>(n), "1", n, speed_mps.size(), std::move(used));
 }
 
 }  // namespace rodeira::measures

@@ -24,4 +24,12 @@ Measure LargestMeanDeceleration(Series speed_mps, double rate_hz, const Accelera
 Measure LargestNegativeJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
 Measure RmsJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
 
+struct DiscomfortOptions {
+  double cutoff_hz = 5.0;
+  double threshold_mps2 = 1.5;  // of the acceleration in the plane of the road
+};
+// Share of the time with an acceleration beyond the threshold: of dv/dt of the low-passed speed and v times the yaw
+// rate, as lengths of a vector. Missing where the yaw rate is.
+Measure DiscomfortShare(Series speed_mps, Series yaw_radps, double rate_hz, const DiscomfortOptions& options);
+
 }  // namespace rodeira::measures

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "common/analysis/measures/acceleration.hpp"
 #include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/fuel.hpp"
 #include "common/analysis/measures/speed.hpp"
 #include "common/analysis/measures/statistics.hpp"
 #include "common/analysis/measures/stops.hpp"
@@ -46,6 +48,13 @@ Measure DistanceIn(const DriveCut& cut, const OptionValues&) {
   const double last_m = 0.5 * (speed_mps[cut.to - 1] + speed_mps[cut.to]) / cut.drive.rate_hz;
   if (!std::isnan(last_m)) *distance.value += last_m;
   return distance;
+}
+
+const OptionInfo kDensity{"density_kgpl", 0.745, 0.1, 2, "of the fuel; petrol 0.745, diesel 0.832"};
+
+// With the sample at which the next interval begins: what is counted from sample to sample adds up.
+Series WithNext(const DriveCut& cut, const std::vector<double>& column) {
+  return Part(column, cut.from, std::min(cut.to + 1, column.size()));
 }
 
 }  // namespace
@@ -162,6 +171,39 @@ std::vector<MeasureInfo> SpeedMeasures() {
        kAccelerationTraps, "ISO 15622", kAccelerationOptions, AccelerationIn<LargestNegativeJerk>},
       {"jerk_rms_mps3", family, "root mean square of jerk", "sqrt(mean(j^2)), j = d2v/dt2 of the low-passed speed",
        kAccelerationTraps, "Green et al. 2024", kAccelerationOptions, AccelerationIn<RmsJerk>},
+      {"discomfort_share",
+       family,
+       "share of time with an uncomfortable acceleration",
+       "share of sqrt((dv/dt)^2 + (v r)^2) > threshold, r the yaw rate",
+       "a standing passenger bears less than a seated one",
+       "Hoberock 1977",
+       {{"cutoff_hz", 5, 0.1, 50, "low-pass of the speed (Butterworth order 2, both ways)"},
+        {"threshold_mps2", 1.5, 0.01, 50, "acceleration in the plane"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return DiscomfortShare(cut(cut.drive.speed_mps), cut(cut.drive.yaw_radps), cut.drive.rate_hz,
+                                {o["cutoff_hz"], o["threshold_mps2"]});
+       }},
+      {"fuel_l",
+       family,
+       "fuel that was burnt",
+       "increase of the fuel used since the start / density",
+       "agents of the traffic have none",
+       "UN R101",
+       {kDensity},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return FuelUsed(WithNext(cut, cut.drive.fuel_used_kg), {o["density_kgpl"]});
+       }},
+      {"fuel_lp100km",
+       family,
+       "fuel over the way",
+       "litres / way * 100 km",
+       "waits raise it; missing where the way is shorter than 1 m",
+       "UN R101",
+       {kDensity},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return FuelOverDistance(WithNext(cut, cut.drive.fuel_used_kg), WithNext(cut, cut.drive.speed_mps),
+                                 cut.drive.rate_hz, {o["density_kgpl"]});
+       }},
   };
 }
 

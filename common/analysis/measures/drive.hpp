@@ -37,6 +37,7 @@ struct Drive {
   std::vector<double> throttle, brake;     // 0 to 1; of the driven vehicle only, as the next two
   std::vector<double> steering_wheel_deg;  // positive to the left
   std::vector<double> indicator;           // 0 none, 1 left, 2 right, 3 both
+  std::vector<double> fuel_used_kg;        // since the start; of the driven vehicle only
   double front_m = kMissing, length_m = kMissing, width_m = kMissing;  // of the footprint; B to the front bumper
 
   // In the world. Beside the road, and in junctions, there is no lane.

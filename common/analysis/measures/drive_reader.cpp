@@ -36,6 +36,7 @@ enum VehicleField {
   kVz,
   kYawRate,
   kWheel,
+  kFuel,
   kThrottle,
   kBrake,
   kLength,
@@ -56,6 +57,7 @@ const std::vector<std::string> kVehicleNames{"position_w_m.x",
                                              "velocity_w_mps.z",
                                              "angular_velocity_b_radps.z",
                                              "steering_wheel_rad",
+                                             "fuel_used_kg",
                                              "throttle",
                                              "brake",
                                              "length_m",
@@ -244,7 +246,7 @@ void DriveChannels::TakeVehicle(std::size_t k, const Numbers& numbers, DriveBuil
   }
   builder.SetFootprint(v[kLength], v[kFront], v[kWidth]);
   builder.AddSubject(k, {v[kX], v[kY], v[kZ], along.heading_rad, along.speed_mps, v[kYawRate], v[kThrottle], v[kBrake],
-                         v[kWheel] * 180.0 / std::numbers::pi, IndicatorOf(v[kLights])});
+                         v[kWheel] * 180.0 / std::numbers::pi, IndicatorOf(v[kLights]), v[kFuel]});
 }
 
 base::Status DriveChannels::TakeTraffic(std::size_t k, const Numbers& numbers, const record::Message& message,

@@ -35,6 +35,7 @@ void PutSubject(const SubjectSample& sample, std::size_t k, Drive& drive) {
   drive.brake[k] = sample.brake;
   drive.steering_wheel_deg[k] = sample.steering_wheel_deg;
   drive.indicator[k] = sample.indicator;
+  drive.fuel_used_kg[k] = sample.fuel_used_kg;
 }
 
 void PutPlace(const LanePlace& place, std::size_t k, Drive& drive) {

@@ -19,6 +19,7 @@ struct SubjectSample {
   double yaw_radps = kMissing;
   double throttle = kMissing, brake = kMissing, steering_wheel_deg = kMissing;
   double indicator = 0.0;
+  double fuel_used_kg = kMissing;
 };
 
 // The motion along a body's x axis: its heading in the plane, and the speed along it. q_WB and the velocity in W.

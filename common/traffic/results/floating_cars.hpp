@@ -7,13 +7,8 @@
 
 namespace rodeira::traffic {
 
-// Floating car data as SUMO's tools read it: <fcd-export>, a <timestep> a moment, a <vehicle> a car with x, y (m),
-// angle (degrees from north, clockwise), speed (m/s), pos (of the front on its lane, m), lane ("road_index", from 0 at
-// the right edge), slope (degrees). x and y are those of the front bumper's middle, as SUMO has them. Another trip is
-// another vehicle ("7.2").
-std::string SumoLaneOf(const lanes::Graph& graph, std::uint32_t track);  // "road_index", as text of an XML file
-std::string FloatingCarsBegin();
+// A <timestep> of floating car data (common/world/lanes/floating_car.hpp) with all vehicles of the traffic. Another
+// trip is another vehicle ("7.2").
 std::string FloatingCarsAt(double time_s, const TrafficModel& model);
-std::string FloatingCarsEnd();
 
 }  // namespace rodeira::traffic

@@ -9,10 +9,10 @@
 
 #include "common/core/base/append_format.hpp"
 #include "common/core/base/csv_cell.hpp"
+#include "common/core/base/xml_text.hpp"
 #include "common/traffic/motion/drivetrain.hpp"
 #include "common/traffic/network/graph_bounds.hpp"
 #include "common/traffic/results/names.hpp"
-#include "common/traffic/results/xml_text.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -125,7 +125,7 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
       "font-family='sans-serif' font-size='12'>\n"
       "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n<g "
       "fill='none' stroke-linejoin='round' stroke-width='{4:.2f}'>\n",
-      std::max(wide, 420.0), high, kRim_px, XmlText(title), std::max(1.5, 0.8 * kLane_m * scale));
+      std::max(wide, 420.0), high, kRim_px, base::XmlText(title), std::max(1.5, 0.8 * kLane_m * scale));
   const auto shade_of = [&](std::uint32_t track, std::size_t i) {
     const LaneCell& cell = statistics.CellsOf(track)[i];
     if (!(cell.time_s > 0.0)) return -1;

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "common/core/base/append_format.hpp"
-#include "common/traffic/results/xml_text.hpp"
+#include "common/core/base/xml_text.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -57,7 +57,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
       "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}, {7} of them "
       "here</text>\n"
       "<rect x='{2}' y='{4}' width='{5}' height='{6}' fill='none' stroke='#bbb'/>\n",
-      kPlotLeft_px + kPlotWidth_px + 20.0, kPlotTop_px + kPlotHeight_px + 40.0, kPlotLeft_px, XmlText(title),
+      kPlotLeft_px + kPlotWidth_px + 20.0, kPlotTop_px + kPlotHeight_px + 40.0, kPlotLeft_px, base::XmlText(title),
       kPlotTop_px, kPlotWidth_px, kPlotHeight_px, here.size());
   Legend(svg);
   for (int k = 0; k <= 4; ++k) {

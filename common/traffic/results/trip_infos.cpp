@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "common/core/base/append_format.hpp"
-#include "common/traffic/results/floating_cars.hpp"
 #include "common/traffic/results/lane_statistics.hpp"
 #include "common/traffic/results/names.hpp"
+#include "common/world/lanes/floating_car.hpp"
 
 namespace rodeira::traffic {
 
@@ -26,11 +26,11 @@ void TripInfos::Write(std::string& text, double time_s, const TrafficModel& mode
                      "arrivalPos=\"{:.2f}\" arrivalSpeed=\"{:.2f}\" duration=\"{:.2f}\" routeLength=\"{:.2f}\" "
                      "waitingTime=\"{:.2f}\" waitingCount=\"{}\" stopTime=\"0.00\" timeLoss=\"{:.2f}\" "
                      "rerouteNo=\"0\" devices=\"\" vType=\"{}\" speedFactor=\"{:.2f}\" vaporized=\"\"/>\n",
-                     id, trip.number, trip.depart.time_s, SumoLaneOf(model.graph(), trip.depart.track),
-                     trip.depart.front_m, trip.depart.speed_mps, time_s, SumoLaneOf(model.graph(), trip.last.track),
-                     trip.last.front_m, trip.last.speed_mps, time_s - trip.depart.time_s,
-                     trip.last.odometer_m - trip.depart.odometer_m, trip.waiting_s, trip.waits, trip.loss_s,
-                     NameOf(model.traits(id).kind), model.traits(id).speed_factor);
+                     id, trip.number, trip.depart.time_s, lanes::SumoLaneOf(model.graph(), trip.depart.track),
+                     trip.depart.front_m, trip.depart.speed_mps, time_s,
+                     lanes::SumoLaneOf(model.graph(), trip.last.track), trip.last.front_m, trip.last.speed_mps,
+                     time_s - trip.depart.time_s, trip.last.odometer_m - trip.depart.odometer_m, trip.waiting_s,
+                     trip.waits, trip.loss_s, NameOf(model.traits(id).kind), model.traits(id).speed_factor);
 }
 
 std::string TripInfos::At(double time_s, const TrafficModel& model) {

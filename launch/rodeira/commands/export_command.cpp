@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/analysis/floating_cars/write_floating_cars.hpp"
 #include "common/analysis/measures/intervals.hpp"
 #include "common/analysis/measures/series.hpp"
 #include "common/core/base/print_error.hpp"
@@ -158,7 +159,7 @@ base::Result<csv::PlainTable> DerivedTable(const ExportOptions& options, const c
 base::Result<csv::ExportReport> WriteTables(const ExportOptions& options, const record::McapReader& reader) {
   using Form = csv::ExportTarget::Form;
   if (options.csv.empty() == options.mat.empty())
-    return base::WrongInput("command.missing_argument", "--csv DIR or --mat FILE.mat was expected");
+    return base::WrongInput("command.missing_argument", "--csv DIR, --mat FILE.mat or --fcd FILE.xml was expected");
   const Form form = !options.mat.empty() ? Form::kMat : options.long_format ? Form::kLong : Form::kWide;
   const csv::ExportTarget target{form, form == Form::kMat ? options.mat : options.csv};
   const auto selection = SelectionOf(options, reader);
@@ -179,10 +180,39 @@ base::Result<csv::ExportReport> WriteTables(const ExportOptions& options, const 
   return csv::ExportTables(reader, target, idl::Aliases(), show, selection.value(), more);
 }
 
+base::Result<floating_cars::FloatingCarsReport> WriteFcd(const ExportOptions& options) {
+  const auto run = replay::RecordedRun::Open(options.recording);
+  if (!run) return run.error();
+  const auto world = EmbeddedWorld(run.value());
+  if (!world) return world.error();
+  auto selection = SelectionOf(options, run.value().reader());
+  if (!selection) return selection.error();
+  ExportProgress progress(options.quiet);
+  floating_cars::FloatingCarsQuery query;
+  query.aliases = &idl::Aliases();
+  query.network = world.value() == nullptr ? nullptr : world.value()->network();
+  query.selection = std::move(selection).value();
+  query.progress = [&progress](double share) { return progress.Show(share); };
+  auto report = floating_cars::WriteFloatingCars(run.value().reader(), options.fcd, query);
+  if (!report && report.error().context.empty()) return report.error().In(options.recording);
+  return report;
+}
+
+int ExportFcd(const ExportOptions& options) {
+  const auto report = WriteFcd(options);
+  if (!report) return base::PrintError("rodeira", report.error());
+  const floating_cars::FloatingCarsReport& r = report.value();
+  if (!options.quiet)
+    fmt::print("{}  {} timesteps of {:g} s, {} vehicles, {} persons, {}\n", options.fcd, r.timesteps, r.period_s,
+               r.vehicles, r.persons, Size(r.bytes));
+  return 0;
+}
+
 }  // namespace
 
 int Export(const ExportOptions& options) {
   CatchInterrupts();
+  if (!options.fcd.empty()) return ExportFcd(options);
   const auto reader = record::McapReader::Open(options.recording);
   const auto report = reader ? WriteTables(options, reader.value()) : reader.error();
   if (!report) return base::PrintError("rodeira", report.error());

@@ -5,11 +5,12 @@
 
 namespace rodeira::cli {
 
-// `rodeira export --csv DIR FILE.mcap`, `rodeira export --mat FILE.mat FILE.mcap`
+// `rodeira export --csv DIR FILE.mcap`, `--mat FILE.mat`, `--fcd FILE.xml`
 struct ExportOptions {
   std::string recording;
   std::string csv;  // the folder
-  std::string mat;  // the file; one of both is named
+  std::string mat;  // the file
+  std::string fcd;  // the file; one of the three is named
   bool long_format = false;
   std::string topics;  // separated by commas, as the columns; empty: all
   std::string columns;

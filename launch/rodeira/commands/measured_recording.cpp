@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/runtime/replay/recorded_run.hpp"
 #include "idl/aliases.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/content_digest.hpp"
@@ -38,24 +37,28 @@ bool ReadingProgress::Show(std::size_t file, double share) {
   return !Interrupted();
 }
 
+base::Result<std::shared_ptr<const road::World>> EmbeddedWorld(const replay::RecordedRun& run) {
+  if (run.launch().world().empty()) return std::shared_ptr<const road::World>();
+  auto world = road::World::Load(run.launch().world());
+  if (!world) return run.Named(world.error());
+  const std::string hash = base::Hex(world.value()->content_hash());
+  if (!run.world_hash().empty() && run.world_hash() != hash) {
+    return base::WrongInput("replay.other_world",
+                            fmt::format("the recording says world_hash {}, the embedded world has {}; lanes cannot "
+                                        "be found with another world",
+                                        run.world_hash(), hash),
+                            run.path().string());
+  }
+  return std::shared_ptr<const road::World>(std::move(world).value());
+}
+
 base::Result<MeasuredRecording> ReadMeasured(const std::string& file, const std::string& subject,
                                              const std::function<bool(double)>& progress) {
   const auto run = replay::RecordedRun::Open(file);
   if (!run) return run.error();
-  std::shared_ptr<const road::World> world;
-  if (!run.value().launch().world().empty()) {
-    auto loaded = road::World::Load(run.value().launch().world());
-    if (!loaded) return run.value().Named(loaded.error());
-    world = std::move(loaded).value();
-    const std::string hash = base::Hex(world->content_hash());
-    if (!run.value().world_hash().empty() && run.value().world_hash() != hash) {
-      return base::WrongInput("replay.other_world",
-                              fmt::format("the recording says world_hash {}, the embedded world has {}; lanes cannot "
-                                          "be found with another world",
-                                          run.value().world_hash(), hash),
-                              file);
-    }
-  }
+  const auto embedded = EmbeddedWorld(run.value());
+  if (!embedded) return embedded.error();
+  const std::shared_ptr<const road::World>& world = embedded.value();
   ContentDigest content;
   measures::DriveQuery query;
   query.subject = subject;

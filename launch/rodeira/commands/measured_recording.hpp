@@ -10,9 +10,11 @@
 #include "common/analysis/measures/table.hpp"
 #include "common/core/base/result.hpp"
 #include "common/data/record/mcap_reader.hpp"
+#include "common/runtime/replay/recorded_run.hpp"
 #include "common/world/road/world.hpp"
 
-// What `measures`, `report` and `export --derived` have in common: a recording with the kinematics rebuilt from it.
+// What `measures`, `report`, `export --derived` and `export --fcd` have in common: a recording with the kinematics
+// rebuilt from it.
 namespace rodeira::cli {
 
 // How much of several files is read, on a terminal and after two seconds.
@@ -37,6 +39,10 @@ struct MeasuredRecording {
   measures::RecordingFacts facts;
   record::TextMap meta;
 };
+
+// The world that the recording embeds; null: there is none. Wrong input where it does not load, or is another one than
+// the recording says.
+base::Result<std::shared_ptr<const road::World>> EmbeddedWorld(const replay::RecordedRun& run);
 
 // subject, progress: as in DriveQuery. Wrong input where the recording is damaged, or embeds another world than it
 // says.

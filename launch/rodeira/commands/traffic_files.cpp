@@ -16,6 +16,7 @@
 #include "common/traffic/results/floating_cars.hpp"
 #include "common/traffic/results/lane_tables.hpp"
 #include "common/traffic/results/names.hpp"
+#include "common/world/lanes/floating_car.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -124,7 +125,7 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   if (!options.fcd.empty()) {
     files.fcd_.open(options.fcd);
     if (!files.fcd_) return base::Failed("file.cannot_write", "the file cannot be written", options.fcd);
-    files.fcd_ << traffic::FloatingCarsBegin();
+    files.fcd_ << lanes::kFloatingCarsBegin;
   }
   if (!options.tripinfo.empty()) {
     files.tripinfo_.open(options.tripinfo);
@@ -194,7 +195,7 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
       return status.error();
   }
   if (fcd_.is_open()) {
-    fcd_ << traffic::FloatingCarsEnd();
+    fcd_ << lanes::kFloatingCarsEnd;
     fcd_.close();
     if (!fcd_) return base::Failed("file.cannot_write", "the file could not be written to its end", options_.fcd);
     written.push_back(options_.fcd);

@@ -18,6 +18,7 @@
 #include "common/traffic/results/floating_cars.hpp"
 #include "common/traffic/results/lane_tables.hpp"
 #include "common/traffic/results/trajectory_diagram.hpp"
+#include "common/world/lanes/floating_car.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
@@ -91,7 +92,9 @@ TEST_F(Written, TheRasterHoldsWhatWasSummed) {
 
 TEST_F(Written, FloatingCarsAreThoseOfTheModel) {
   pugi::xml_document document;
-  ASSERT_TRUE(document.load_string((FloatingCarsBegin() + FloatingCarsAt(60.0, model_) + FloatingCarsEnd()).c_str()));
+  ASSERT_TRUE(document.load_string(
+      (std::string(lanes::kFloatingCarsBegin) + FloatingCarsAt(60.0, model_) + std::string(lanes::kFloatingCarsEnd))
+          .c_str()));
   const pugi::xml_node moment = document.child("fcd-export").child("timestep");
   EXPECT_DOUBLE_EQ(moment.attribute("time").as_double(), 60.0);
   auto pose = model_.poses().begin();

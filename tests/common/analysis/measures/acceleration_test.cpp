@@ -27,5 +27,18 @@ TEST(Acceleration, SpeedingUpHasNoDecelerationAndTwoSamplesNone) {
   EXPECT_FALSE(LargestMeanDeceleration(Series(speed).first(90), kRate, {}).value);
 }
 
+// On a circle the acceleration is v r: beyond the threshold or not. a = 2 A w cos w t of a sine lies beyond half of its
+// largest value for two thirds of the time.
+TEST(Acceleration, DiscomfortOfACircleAndOfASine) {
+  const auto speed = Sampled(30.0, kRate, [](double) { return 10.0; });
+  EXPECT_EQ(*DiscomfortShare(speed, std::vector<double>(speed.size(), 0.16), kRate, {}).value, 1.0);
+  EXPECT_EQ(*DiscomfortShare(speed, std::vector<double>(speed.size(), -0.14), kRate, {}).value, 0.0);
+  const double w = 2.0 * std::numbers::pi * 0.2;
+  const auto sine = Sampled(50.0, kRate, [&](double t) { return 20.0 + 2.0 * std::sin(w * t); });
+  const std::vector<double> straight(sine.size(), 0.0);
+  EXPECT_NEAR(*DiscomfortShare(sine, straight, kRate, {.threshold_mps2 = w}).value, 2.0 / 3.0, 0.002);
+  EXPECT_FALSE(DiscomfortShare(sine, std::vector<double>(sine.size(), kMissing), kRate, {}).value);
+}
+
 }  // namespace
 }  // namespace rodeira::measures

@@ -23,35 +23,7 @@ measures::DriveReading StraightDrive() {
   measures::Drive& d = reading.drive;
   d.subject = "ego";
   const std::size_t n = 1000;
-  const std::vector<double> missing(n, kMissing);
-  for (auto* column : {&d.x_m,
-                       &d.y_m,
-                       &d.z_m,
-                       &d.heading_rad,
-                       &d.speed_mps,
-                       &d.yaw_radps,
-                       &d.throttle,
-                       &d.brake,
-                       &d.steering_wheel_deg,
-                       &d.indicator,
-                       &d.road,
-                       &d.lane,
-                       &d.s_m,
-                       &d.t_m,
-                       &d.lane_width_m,
-                       &d.lane_position_m,
-                       &d.heading_error_rad,
-                       &d.lane_curvature_1pm,
-                       &d.left_line_m,
-                       &d.right_line_m,
-                       &d.speed_limit_mps,
-                       &d.junction})
-    *column = missing;
-  for (measures::Neighbour* of :
-       {&d.leader, &d.follower, &d.left_leader, &d.left_follower, &d.right_leader, &d.right_follower})
-    of->id = of->gap_m = of->speed_mps = of->length_m = missing;
-  d.episode.resize(n);
-  d.crossing.resize(n);
+  measures::GrowColumns(d, n);
   for (std::size_t k = 0; k < n; ++k) {
     if (k >= 500 && k < 600) continue;
     d.x_m[k] = 0.2 * static_cast<double>(k);
@@ -92,7 +64,8 @@ TEST(ReportPage, ShowsFactsMeasuresWithUnitsAndReasons) {
   EXPECT_THAT(page, HasSubstr(">speed_max_mps</th><td>m/s</td><td class=\"number\">20</td>"));
   const auto sdlp = drive.rows[0].values[1];
   ASSERT_FALSE(sdlp.value);
-  EXPECT_THAT(page, HasSubstr("<td class=\"missing\">" + Html(sdlp.reason) + "</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"missing\" title=\"" + Html(sdlp.reason) + "\">– <sup>1</sup></td>"));
+  EXPECT_THAT(page, HasSubstr("<ol class=\"reasons\">\n<li>" + Html(sdlp.reason) + "</li>\n</ol>"));
   EXPECT_EQ(page, ReportPage(Spec(), {&drive, 1})) << "the same bytes each time";
 }
 
@@ -143,6 +116,30 @@ TEST(ReportPage, MissingSamplesInterruptCurvesAndWay) {
 }
 
 // A quantity that begins late stands on the time axis of the others.
+// No table is wider than a sheet of paper, and each interval stands in one of them.
+TEST(ReportPage, ManyIntervalsAreSeveralTables) {
+  const auto reading = StraightDrive();
+  ReportedDrive drive = Reported(reading, "a.mcap");
+  const measures::MeasuresRow row = drive.rows[0];
+  for (int i = 1; i < 14; ++i) {
+    drive.rows.push_back(row);
+    drive.rows.back().interval.name = "part" + std::to_string(i);
+  }
+  const std::string page = ReportPage(Spec(), {&drive, 1});
+  const std::size_t measures = page.find("<h2>Measures</h2>");
+  ASSERT_NE(measures, std::string::npos);
+  int tables = 0;
+  std::size_t headings = 0;
+  for (auto at = page.find("<thead>", measures); at != std::string::npos; at = page.find("<thead>", at + 1), ++tables) {
+    const std::size_t columns = Count(page.substr(at, page.find("</thead>", at) - at), "<th>");
+    EXPECT_LE(columns, 8u);
+    headings += columns - 2;
+  }
+  EXPECT_EQ(tables, 3);
+  EXPECT_EQ(headings, 14u);
+  for (int i = 1; i < 14; ++i) EXPECT_EQ(Count(page, "part" + std::to_string(i) + "<br>"), 1u);
+}
+
 TEST(ReportPage, AllStripsHaveTheRecordingsTime) {
   auto reading = StraightDrive();
   for (std::size_t k = 900; k < 1000; ++k) reading.drive.brake[k] = 0.1;

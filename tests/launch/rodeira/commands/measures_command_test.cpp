@@ -354,6 +354,41 @@ TEST_F(MeasuresCommand, AVersionBeforeAndAWorldThatDoesNotLoad) {
   EXPECT_THAT(none.errors, HasSubstr("worlds/"));
 }
 
+// An embedded world with a wrong key, one that is no YAML, and one with bytes that do not unpack.
+TEST_F(MeasuresCommand, AnEmbeddedWorldThatIsDamaged) {
+  const std::string drive = Drive(2.0);
+  struct Damage {
+    std::string text, media_type, said;
+  };
+  for (const Damage& damage :
+       {Damage{"rodeira: world/2\nrods: []\n", "application/octet-stream", "plane.yaml:1: key 'name'"},
+        Damage{"rodeira: [world/2", "application/octet-stream", "plane.yaml:1: this is no YAML"},
+        Damage{"no archive", "application/x-rodeira-zstd", "worlds/"}}) {
+    SCOPED_TRACE(damage.text);
+    const std::string copy = Path("damaged.mcap");
+    int worlds = 0;
+    CopyRecording(
+        drive, copy, [](const std::string&, record::TextMap&) {},
+        [](const std::string&, const record::Message&, base::Bytes&) { return true; },
+        [](const std::string&) { return true; }, {}, [](const std::string&, std::string&) {},
+        [&](const std::string& name, std::string& media_type, base::Bytes& data) {
+          if (name.find("worlds/") == std::string::npos) return;
+          ++worlds;
+          media_type = damage.media_type;
+          const auto bytes = std::as_bytes(std::span(damage.text));
+          data.assign(bytes.begin(), bytes.end());
+        });
+    ASSERT_GE(worlds, 1);
+    MeasuresOptions options;
+    options.recordings = {copy};
+    const Said said = Of(options);
+    EXPECT_EQ(said.status, 2);
+    EXPECT_EQ(std::count(said.errors.begin(), said.errors.end(), '\n'), 1) << said.errors;
+    EXPECT_THAT(said.errors, HasSubstr("damaged.mcap"));
+    EXPECT_THAT(said.errors, HasSubstr(damage.said));
+  }
+}
+
 // On a recording with events: from an event on for some seconds, by speed, lane, stations and junction. The intervals
 // are those of the time series.
 TEST_F(MeasuresCommand, IntervalsOfEventsAndConditions) {

@@ -13,17 +13,19 @@
 
 namespace rodeira::cli {
 
-// A copy of a recording, its metadata and messages changed on the way; a message or an embedded file for which `keep`
-// says no is left out.
+// A copy of a recording, its metadata, messages, IDL and embedded files changed on the way; a message or an embedded
+// file for which `keep` says no is left out.
 using Entries = std::function<void(const std::string& name, record::TextMap& entries)>;
 using Keep = std::function<bool(const std::string& topic, const record::Message& message, base::Bytes& data)>;
 using KeepFile = std::function<bool(const std::string& name)>;
+using ChangeFile = std::function<void(const std::string& name, std::string& media_type, base::Bytes& data)>;
 using ChangeIdl = std::function<void(const std::string& type, std::string& text)>;
 
 inline void CopyRecording(
     const std::string& file, const std::string& copy, const Entries& change, const Keep& keep,
     const KeepFile& keep_file, const record::WriterSettings& settings = {},
-    const ChangeIdl& change_idl = [](const std::string&, std::string&) {}) {
+    const ChangeIdl& change_idl = [](const std::string&, std::string&) {},
+    const ChangeFile& change_file = [](const std::string&, std::string&, base::Bytes&) {}) {
   std::filesystem::remove(copy);
   auto reader = record::McapReader::Open(file);
   auto writer = record::McapWriter::Open(copy, settings);
@@ -35,8 +37,10 @@ inline void CopyRecording(
   }
   for (const auto& info : in.attachments()) {
     if (!keep_file(info.name)) continue;
-    const auto attachment = in.ReadAttachment(info);
-    EXPECT_TRUE(writer.value().AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0).ok());
+    std::string media_type = info.media_type;
+    base::Bytes data = in.ReadAttachment(info).value().data;
+    change_file(info.name, media_type, data);
+    EXPECT_TRUE(writer.value().AddAttachment(info.name, media_type, data, 0, 0).ok());
   }
   std::map<record::ChannelId, record::ChannelId> ids;
   for (const auto& [id, channel] : in.channels()) {

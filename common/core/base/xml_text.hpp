@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rodeira::traffic {
+namespace rodeira::base {
 
 // A text as it stands in an XML file, in an element or between double quotes.
 inline std::string XmlText(const std::string& text) {
@@ -21,4 +21,4 @@ inline std::string XmlText(const std::string& text) {
   return out;
 }
 
-}  // namespace rodeira::traffic
+}  // namespace rodeira::base
