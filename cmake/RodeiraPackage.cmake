@@ -98,7 +98,7 @@ else()
   set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy")
 endif()
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-zstandard")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libdeflate0, python3-pandas, python3-zstandard")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-lz4, python3-matplotlib, rodeira-headless")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/packaging/python3/postinst;\
 ${CMAKE_SOURCE_DIR}/packaging/python3/prerm")

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .checksum import crc32
 from .compression import decompress
 from .errors import Error
 from .mcap_records import (ATTACHMENT, CHANNEL, CHUNK, CHUNK_INDEX, DATA_END, FOOTER, FOOTER_BYTES, HEAD_BYTES, HEADER,
@@ -219,7 +220,7 @@ class McapFile:
             records = decompress(head.compression, head.records, head.uncompressed_bytes)
         except Error as problem:
             raise Error(f"{place}: {problem}") from None
-        if head.crc and zlib.crc32(records) != head.crc:
+        if head.crc and crc32(records) != head.crc:
             raise Error(f"{place}: its checksum is wrong")
         return records
 

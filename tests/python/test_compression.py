@@ -4,11 +4,12 @@
 import contextlib
 import importlib.util
 import unittest
+import zlib
 from unittest import mock
 
 import handmade
 import rodeira
-from rodeira import compression
+from rodeira import checksum, compression
 
 TEXT = b"the same words again and again, " * 400
 
@@ -36,6 +37,13 @@ class Compression(unittest.TestCase):
                                       ("lz4", ("_lz4",), "Debian: python3-lz4")):
             with without(*names), self.assertRaisesRegex(rodeira.Error, sentence):
                 compression.decompress(kind, b"anything", 10)
+
+    def test_the_checksum_is_zlibs_with_libdeflate_and_without(self):
+        self.assertEqual(zlib.crc32(b"123456789"), 0xCBF43926)  # the check value of CRC-32
+        for library in {checksum._libdeflate, None}:
+            with mock.patch.object(checksum, "_libdeflate", library):
+                for data in (b"", b"1", b"123456789", TEXT, memoryview(TEXT)[3:]):
+                    self.assertEqual(checksum.crc32(data), zlib.crc32(data))
 
     def test_no_compression_and_an_unknown_one(self):
         self.assertEqual(compression.decompress("", TEXT, len(TEXT)), TEXT)
