@@ -135,6 +135,37 @@ class Episodes(EnvTest):
         np.testing.assert_array_equal(table[1:], actions(1, 150))
         self.assertEqual(drive(env, table[1:]), digest)
 
+    def test_nodes_of_ones_own_take_part_as_shared_objects(self):
+        built = pathlib.Path(PROGRAM).parent
+        for name in ("eye-tracker", "gaze-monitor"):
+            for suffix in ("", ".so"):
+                made = built / f"rodeira-test-{name}{suffix}"
+                self.assertTrue(made.exists(), made)
+                (self.folder / (name.replace("-", "_") + suffix)).symlink_to(made)
+        example = ROOT / "examples/own_node"
+        for name in ("eye.yaml", "monitor.yaml", "gaze.idl"):
+            (self.folder / name).write_text((example / name).read_text())
+        text = (example / "own_node.yaml.in").read_text().replace("@RODEIRA_DATA@", str(ROOT))
+        text = re.sub(r"config: \{source: script.*\}\}", "config: {source: agent}}", text)
+        launch, without = self.folder / "own.yaml", self.folder / "without.yaml"
+        launch.write_text(text)
+        without.write_text(text.replace("library: eye_tracker.so", ""))
+        env = self.env(launch)
+        observation, _ = env.reset()
+        self.assertIn("lab/gaze", observation.topics)
+        digests = []
+        for _ in range(3):
+            env.reset()
+            digests.append(drive(env, actions(1)))
+        env.reset(seed=9)
+        env.reset(seed=1)
+        digests.append(drive(env, actions(1)))
+        fresh = self.env(launch)
+        fresh.reset()
+        self.assertEqual({*digests, drive(fresh, actions(1))}, {digests[0]})
+        with self.assertRaisesRegex(rodeira.Error, "node 'eye': its program .* needs its shared object, as 'library'"):
+            self.env(without).reset()
+
     def test_it_drives_as_a_script_with_the_same_controls(self):
         script, scripted, path = (self.folder / name for name in ("drive.csv", "scripted.mcap", "env.mcap"))
         script.write_text("time_s,steering_wheel_rad,throttle\n0,0,0\n0.01,0.2,0.7\n")
