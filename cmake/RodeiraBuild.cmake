@@ -41,7 +41,8 @@ if(RODEIRA_FUZZ)
   set(RODEIRA_WARNINGS "")  # those are kept for GCC, which builds what is shipped
 endif()
 if(RODEIRA_SANITIZE)
-  # GCC 12 sees writes into nothing in fmt's headers, and reads of nothing in its own <regex>, where it instruments them.
+  # GCC 12 sees writes into nothing in fmt's headers, and reads of nothing in its own <regex>, where it instruments
+  # them.
   list(APPEND RODEIRA_WARNINGS -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 
@@ -145,7 +146,8 @@ function(rodeira_bench name)
   rodeira_needs_geodata(${name}_bench)
 endfunction()
 
-# rodeira_modules(base config …): enters the folders of a group's modules. A folder that is listed and absent is an error.
+# rodeira_modules(base config …): enters the folders of a group's modules. A folder that is listed and absent is an
+# error.
 function(rodeira_modules)
   foreach(module IN LISTS ARGN)
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${module}/CMakeLists.txt)

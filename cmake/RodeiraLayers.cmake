@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Holds the link lines against cmake/layers.txt. Libraries record what they link; rodeira_check_layers() compares at the end.
+# Holds the link lines against cmake/layers.txt. Libraries record what they link; rodeira_check_layers() compares at the
+# end.
 
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/layers.txt)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What makes a first build short: the headers that nearly every source reads are compiled once, and a module's sources are
-# compiled in batches. docs/performance.md has the times; tests/rebuilt builds without both and compares digests.
+# What makes a first build short: the headers that nearly every source reads are compiled once, and a module's sources
+# are compiled in batches. docs/performance.md has the times; tests/rebuilt builds without both and compares digests.
 
 option(RODEIRA_UNITY "Compile the sources of a module in batches" ON)
 option(RODEIRA_PCH "Precompile the headers that nearly every source reads" ON)

@@ -164,6 +164,11 @@ Key WithSample(std::string sample, Key key) {
   return key;
 }
 
+Key Since(std::string version, Key key) {
+  key.since = std::move(version);
+  return key;
+}
+
 Key Required(Key key) {
   key.required = true;
   key.default_value = {};
@@ -280,7 +285,9 @@ std::string RangeCell(const PlacedKey& placed) {
 }
 
 std::string MeaningCell(const PlacedKey& placed) {
-  return placed.key->meaning.empty() && placed.container != nullptr ? placed.container->meaning : placed.key->meaning;
+  const bool items = placed.key->meaning.empty() && placed.container != nullptr;
+  const Key& key = items ? *placed.container : *placed.key;
+  return key.since.empty() ? key.meaning : fmt::format("{} Since {}.", key.meaning, key.since);
 }
 
 std::string DefaultCell(const PlacedKey& placed) {

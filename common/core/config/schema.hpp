@@ -32,6 +32,9 @@ enum class ValueType {
 // Nothing: the key has no default of its own.
 using DefaultValue = std::variant<std::monostate, double, std::int64_t, bool, std::string>;
 
+// The version whose files have all keys that name no other one.
+inline constexpr std::string_view kFirstVersion = "0.1.0";
+
 // A key of a mapping, a value of kNamed or an item of kList.
 struct Key {
   std::string name;  // with its unit; empty for a value of kNamed and an item of kList
@@ -50,6 +53,7 @@ struct Key {
   std::string summary{};      // of kMapping, kWord: not empty, if the reference shows this instead of keys and words
   std::size_t min_items = 0;  // of kList
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
+  std::string since{};  // the version that has it first; empty: kFirstVersion
 };
 
 // A kind of file.
@@ -105,6 +109,8 @@ Key Summarised(std::string summary, Key key);
 Key WithDefaultNote(std::string default_note, Key key);
 // The same key with a valid value for generated files, as YAML.
 Key WithSample(std::string sample, Key key);
+// The same key, which versions before `version` do not know.
+Key Since(std::string version, Key key);
 // The same key, required.
 Key Required(Key key);
 // The key `rodeira` with the format, and the optional `name`, which begin every file.
@@ -126,7 +132,8 @@ std::vector<PlacedKey> ValuesOf(const Schema& schema);
 // As ValuesOf, with one entry for a mapping that has a summary.
 std::vector<PlacedKey> RowsOf(const Schema& schema);
 
-// Cells of the reference: "0.1 to 2", "true, false"; "0.98", "" without a default; the meaning.
+// Cells of the reference: "0.1 to 2", "true, false"; "0.98", "" without a default; the meaning, with the
+// version where it is not the first one.
 std::string RangeCell(const PlacedKey& placed);
 std::string DefaultCell(const PlacedKey& placed);
 std::string MeaningCell(const PlacedKey& placed);

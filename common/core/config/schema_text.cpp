@@ -38,6 +38,9 @@ std::string JsonValue(const Key& key, const std::string& indent) {
   std::vector<std::string> members;
   const std::string inner = indent + "  ";
   if (!key.meaning.empty()) members.push_back(fmt::format("{}\"description\": {}", inner, base::JsonText(key.meaning)));
+  if (!key.name.empty())
+    members.push_back(fmt::format("{}\"$comment\": \"since {}\"", inner,
+                                  key.since.empty() ? kFirstVersion : std::string_view(key.since)));
   switch (key.type) {
     case ValueType::kNumber:
     case ValueType::kInteger:
@@ -101,7 +104,9 @@ std::string JsonValue(const Key& key, const std::string& indent) {
 }  // namespace
 
 std::string SchemaText(const Schema& schema) {
-  std::string out = fmt::format("rodeira: {}\n{}\n\n", schema.format, schema.meaning);
+  std::string out =
+      fmt::format("rodeira: {}\n{}\nKeys are there since version {}, unless their row says another one.\n\n",
+                  schema.format, schema.meaning, kFirstVersion);
   const auto values = RowsOf(schema);
   std::size_t path = 3, default_value = 7, range = 5;
   for (const PlacedKey& value : values) {

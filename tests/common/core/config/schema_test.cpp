@@ -68,6 +68,20 @@ std::string ReadGarage(const std::string& text) {
   return status ? "" : status.error().Text();
 }
 
+// A key of a later version says so in all three forms.
+TEST(Schema, AKeyNamesTheVersionThatHasItFirst) {
+  const Schema schema{"shed", "shed/1", "A shed.",
+                      FileKeys("shed/1", {FlagKey("lit", true, "Lamps are on."),
+                                          Since("0.3.0", NumberKey("height_m", {1.0, 9.0}, 2.0, "Height."))})};
+  EXPECT_THAT(SchemaMarkdown(schema), HasSubstr("| `height_m` | 2 | 1 to 9 | Height. Since 0.3.0. |"));
+  EXPECT_THAT(SchemaMarkdown(schema), HasSubstr("| Lamps are on. |"));
+  EXPECT_THAT(SchemaText(schema), HasSubstr("since version 0.1.0, unless their row says another one"));
+  EXPECT_THAT(SchemaText(schema), HasSubstr("Height. Since 0.3.0."));
+  const std::string json = SchemaJson(schema);
+  EXPECT_THAT(json, HasSubstr("\"description\": \"Lamps are on.\",\n      \"$comment\": \"since 0.1.0\""));
+  EXPECT_THAT(json, HasSubstr("\"description\": \"Height.\",\n      \"$comment\": \"since 0.3.0\""));
+}
+
 TEST(Schema, TheReaderTakesTypeRangeAndDefaultFromTheDeclaration) { ExpectEveryKey(Garage(), ReadGarage); }
 
 TEST(Schema, AnAbsentKeyHasItsDefault) {
