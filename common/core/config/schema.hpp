@@ -32,7 +32,7 @@ enum class ValueType {
 // Nothing: the key has no default of its own.
 using DefaultValue = std::variant<std::monostate, double, std::int64_t, bool, std::string>;
 
-// The version whose files have all keys that name no other one.
+// Keys that name no other version are there since this one.
 inline constexpr std::string_view kFirstVersion = "0.1.0";
 
 // A key of a mapping, a value of kNamed or an item of kList.
