@@ -10,8 +10,10 @@
 
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
@@ -74,17 +76,17 @@ class ClockJump : public ::testing::Test {
 };
 
 TEST_F(ClockJump, ChangesNothingButStamps) {
-  const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "6", "--in-process",
+  const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "4", "--in-process",
                                  "--record", (folder_.path() / "calm.mcap").string()});
   ASSERT_EQ(calm.status, 0) << calm.out;
   for (const std::int64_t years : {-66, 74}) {
     SCOPED_TRACE(years);
     *shift_s_ = 0;
     const std::string recording = (folder_.path() / fmt::format("{}.mcap", years)).string();
-    Started run(Command({"--pace", "real", "--for", "6", "--record", recording}));
+    Started run(Command({"--pace", "real", "--for", "4", "--record", recording}));
     ASSERT_TRUE(Runs(Name()));
     *shift_s_ = years * kYear_s;
-    std::this_thread::sleep_for(1500ms);
+    std::this_thread::sleep_for(1s);
     *shift_s_ = -*shift_s_ / 2;
     const Ended ended = run.Wait(40s);
     EXPECT_EQ(ended.status, 0) << ended.out;
@@ -113,23 +115,35 @@ TEST_F(ClockJump, ARunBefore1970RestsWhileItIsPausedAndEnds) {
   EXPECT_TRUE(ProcessesWith("--run " + Name()).empty());
 }
 
-// RODEIRA_SLEEP_S: how long all processes are stopped (12 s; a run is paused from 10 s on).
+// RODEIRA_SLEEP_S: how long all processes are stopped (11 s; a run is paused from 10 s on).
 TEST(Asleep, ARunInRealTimeWakesPausedAndGoesOn) {
-  const std::string name = fmt::format("asleep-{}", ::getpid());
+  struct Asleep {
+    std::string name;
+    std::unique_ptr<Started> run;
+    std::vector<pid_t> parts;
+  };
+  std::vector<Asleep> runs;  // they sleep at the same time
   for (const bool in_process : {true, false}) {
-    SCOPED_TRACE(in_process ? "one process" : "processes");
+    const std::string name = fmt::format("asleep-{}-{}", ::getpid(), in_process ? "one-process" : "processes");
     std::vector<std::string> command{
         Bin("rodeira"), "run",        LaunchFile("first_drive.yaml"), "--run", name, "--pace", "real", "--for",
         "1000",         "--no-record"};
     if (in_process) command.emplace_back("--in-process");
-    Started run(command);
-    ASSERT_TRUE(Runs(name));
+    runs.push_back({name, std::make_unique<Started>(command), {}});
+    ASSERT_TRUE(Runs(name)) << name;
+  }
+  for (Asleep& asleep : runs) {
     // The front door sleeps first and wakes last: it would take a stopped node for a fault.
-    ::kill(run.pid(), SIGSTOP);
-    const auto parts = ProcessesWith("--run " + name, "/rodeira-");
-    for (const pid_t part : parts) ::kill(part, SIGSTOP);
-    std::this_thread::sleep_for(std::chrono::seconds(Setting("RODEIRA_SLEEP_S", 12)));
-    for (const pid_t part : parts) ::kill(part, SIGCONT);
+    ::kill(asleep.run->pid(), SIGSTOP);
+    asleep.parts = ProcessesWith("--run " + asleep.name, "/rodeira-");
+    for (const pid_t part : asleep.parts) ::kill(part, SIGSTOP);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(Setting("RODEIRA_SLEEP_S", 11)));
+  for (const Asleep& asleep : runs) {
+    const std::string& name = asleep.name;
+    SCOPED_TRACE(name);
+    Started& run = *asleep.run;
+    for (const pid_t part : asleep.parts) ::kill(part, SIGCONT);
     ::kill(run.pid(), SIGCONT);
     EXPECT_GE(run.WaitFor("the run is paused at step", 10s), 0ms);
     EXPECT_THAT(RunCommand({Bin("rodeira"), "ctl", "state", "--run", name}).out, HasSubstr("paused at step"));

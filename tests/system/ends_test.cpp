@@ -63,9 +63,8 @@ class CellRun {
 
   std::string Differences() {
     const bool to_its_end = cell_.outcome == "goes on";
-    Started run({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--run", name_, "--pace",
-                 to_its_end ? "2" : "real", "--for", to_its_end ? "8" : "100", "--record", recording_, "--set",
-                 "recovery=" + cell_.policy});
+    Started run({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--run", name_, "--pace", "real", "--for",
+                 to_its_end ? "4" : "100", "--record", recording_, "--set", "recovery=" + cell_.policy});
     if (!Runs(name_)) return "the run did not begin: " + run.Wait(10s).out;
     const pid_t victim = Victim(run);
     if (victim <= 0) return "the part was not found";
@@ -115,7 +114,7 @@ TEST(Ends, AreThoseOfTheTable) {
   ASSERT_GT(table.size(), 90u) << "docs/reference/ends.md";
   for (const Cell& cell : table) ASSERT_NE(SignalOf(cell.cause), 0) << cell.cause;
   const cli::TemporaryFolder folder;
-  const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "8", "--in-process",
+  const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "4", "--in-process",
                                  "--record", (folder.path() / "calm.mcap").string()});
   ASSERT_EQ(calm.status, 0) << calm.out;
   const std::string undisturbed = DigestIn(calm.out);

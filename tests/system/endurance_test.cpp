@@ -45,7 +45,7 @@ class RecorderKilled : public Endurance {
  protected:
   static constexpr std::uintmax_t kFirstSecondBytes =
       100'000;                                     // what is embedded has 20 kB, the first chunk more than these
-  static constexpr const char* kSimulated = "60";  // seconds: at the pace below five, longer than a run lives
+  static constexpr const char* kSimulated = "20";  // seconds: at the pace below five, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
     return {Bin("rodeira"),
             "run",
@@ -57,7 +57,7 @@ class RecorderKilled : public Endurance {
             "--record",
             recording,
             "--pace",
-            "12",
+            "4",
             "--set",
             "limits.silence_s=30",
             "--set",
@@ -173,7 +173,7 @@ std::map<pid_t, std::vector<std::int64_t>> Watch(Started& run, const std::string
 
 // RODEIRA_LONG_STEPS says how many.
 TEST_F(Endurance, ALongRunOfEightNodesSkipsNoStepAndItsMemoryIsFlat) {
-  const auto steps = Setting("RODEIRA_LONG_STEPS", 20'000);
+  const auto steps = Setting("RODEIRA_LONG_STEPS", 10'000);
   // Hours on a machine that others use too: a second without the processor is no fault of a node.
   std::string text = "rodeira: launch/1\nlimits: {silence_s: 30, step_s: 30}\nnodes:\n";
   for (int node = 0; node < 8; ++node) text += fmt::format("  n{}: {{kind: empty}}\n", node);

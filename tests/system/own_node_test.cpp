@@ -210,10 +210,10 @@ TEST_F(OwnNode, AWrongSharedObjectIsRefused) {
 }
 
 TEST_F(OwnNode, KilledItIsStartedAgainAndNothingIsLost) {
-  const Ended calm = Run("calm.mcap", {"--for", "6"});
+  const Ended calm = Run("calm.mcap", {"--for", "4"});
   ASSERT_EQ(calm.status, 0) << calm.out;
   for (const char* node : {"eye", "monitor"}) {
-    Started run(Command("killed.mcap", {"--for", "6", "--pace", "2", "--set", "recovery=restart"}));
+    Started run(Command("killed.mcap", {"--for", "4", "--pace", "2", "--set", "recovery=restart"}));
     ASSERT_TRUE(Runs(Name()));
     WaitForBytes(File("killed.mcap"), 100'000);
     const auto victim = ProcessesWith("--run " + Name(), std::string("--node ") + node);

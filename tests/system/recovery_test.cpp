@@ -81,7 +81,7 @@ class Recovery : public ::testing::Test {
             "--record",
             recording,
             "--pace",
-            "5",
+            "2",
             "--set",
             "recovery=" + policy};
   }
@@ -111,7 +111,7 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
   const auto seed = static_cast<unsigned>(Setting("RODEIRA_KILLS_SEED", std::random_device()()));
   SCOPED_TRACE("RODEIRA_KILLS_SEED=" + std::to_string(seed));
   std::mt19937 lot(seed);
-  const std::string seconds = "60";
+  const std::string seconds = "16";  // a run that is over is followed by another one
   Undisturbed(seconds);
   int done = 0;
   for (int round = 0; done < kills && round < 3 + kills; ++round) {
@@ -144,8 +144,9 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
 
 TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
   const std::string run_name = "recovery-time-" + std::to_string(::getpid());
-  Started run(Command(run_name, File("time.mcap"), "30", "restart"));
-  std::this_thread::sleep_for(2s);
+  Started run(Command(run_name, File("time.mcap"), "6", "restart"));
+  ASSERT_TRUE(Runs(run_name));
+  std::this_thread::sleep_for(300ms);
   const pid_t ego = Find(run_name, "ego");
   ASSERT_GT(ego, 0);
   ::kill(ego, SIGKILL);
@@ -171,23 +172,23 @@ TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
 
 // Steps that a dead clock granted before it could say when: they are counted, and no other wall time stands for them.
 TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
-  Undisturbed("20");
+  Undisturbed("8");
   const std::string run_name = "recovery-clock-" + std::to_string(::getpid());
-  Started run(Command(run_name, File("clock.mcap"), "20", "restart"));
+  Started run(Command(run_name, File("clock.mcap"), "8", "restart"));
   ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(700ms);
+  std::this_thread::sleep_for(500ms);
   const pid_t clock = Find(run_name, "clock");
   ASSERT_GT(clock, 0);
   ::kill(clock, SIGKILL);
   ExpectUndisturbed(run.Wait(60s), File("clock.mcap"));
-  std::vector<int> said(20'001, 0);
+  std::vector<int> said(8'001, 0);
   for (const auto& wall : MessagesOf<msg::WallTime>(File("clock.mcap"), idl::topics::kWallTime)) {
     ASSERT_LT(wall.through_step(), std::ssize(said));
     for (auto step = wall.after_step() + 1; step <= wall.through_step(); ++step) ++said[static_cast<std::size_t>(step)];
   }
   const auto missing = std::count(said.begin(), said.end(), 0);
   EXPECT_EQ(std::count(said.begin(), said.end(), 1), std::ssize(said) - missing) << "no step was granted twice";
-  EXPECT_LE(missing, 1000) << "what is not said yet is a twentieth of a second old, at five times real time";
+  EXPECT_LE(missing, 400) << "what is not said yet is a twentieth of a second old, at twice real time";
   const Ended info = RunCommand({Bin("rodeira"), "info", File("clock.mcap")});
   const std::string sentence = "the wall times of " + std::to_string(missing) + " steps are missing";
   EXPECT_EQ(info.out.find(sentence) != std::string::npos, missing > 0) << sentence << "\n" << info.out;
@@ -227,7 +228,7 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
                                     "--run",
                                     name,
                                     "--for",
-                                    "20",
+                                    "5",
                                     "--pace",
                                     pace,
                                     "--record",
@@ -235,11 +236,13 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
                                     "--set",
                                     "recovery=restart",
                                     "--set",
+                                    "nodes.view.config.quality=low",
+                                    "--set",
                                     "nodes.view.config.width_px=160",
                                     "--set",
                                     "nodes.view.config.height_px=96",
                                     "--set",
-                                    "nodes.view.config.frames.times_s=[1, 7, 13, 19]",
+                                    "nodes.view.config.frames.times_s=[0.5, 2, 3.5, 5]",
                                     "--set",
                                     "nodes.view.config.frames.folder=" + File(name)};
   };
@@ -249,7 +252,7 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   ASSERT_EQ(undisturbed.status, 0) << undisturbed.out;
   digest_ = DigestIn(undisturbed.out);
   samples_ = SamplesOf(File(calm + ".mcap"));
-  Started run(command(struck, "5"));
+  Started run(command(struck, "2"));
   ASSERT_TRUE(Runs(struck));
   for (const int signal : {SIGKILL, SIGSTOP}) {
     std::this_thread::sleep_for(500ms);
@@ -274,9 +277,9 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
 
 // Writers to it are held up by its memory for a while: that is no node's fault.
 TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
-  Undisturbed("20");
+  Undisturbed("8");
   const std::string run_name = "recovery-recorder-" + std::to_string(::getpid());
-  Started run(Command(run_name, File("stopped.mcap"), "20", "restart"));
+  Started run(Command(run_name, File("stopped.mcap"), "8", "restart"));
   ASSERT_TRUE(Runs(run_name));
   std::this_thread::sleep_for(500ms);
   const pid_t recorder = Find(run_name, "recorder");
@@ -292,11 +295,11 @@ TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
 
 // Its file is closed, but it has not said so: the most unlucky moment.
 TEST_F(Recovery, ARecorderThatDiesOnItsLastWordLosesNothing) {
-  Undisturbed("6");
+  Undisturbed("3");
   for (int i = 0; i < 8; ++i) {
     const std::string run_name = "recovery-last-" + std::to_string(::getpid()) + "-" + std::to_string(i);
     const std::string recording = File(run_name + ".mcap");
-    Started run(Command(run_name, recording, "6", "restart"));
+    Started run(Command(run_name, recording, "3", "restart"));
     const pid_t recorder = Find(run_name, "recorder");
     ASSERT_GT(recorder, 0);
     AwaitItsMark(recording);
@@ -310,9 +313,9 @@ TEST_F(Recovery, ARecorderThatDiesOnItsLastWordLosesNothing) {
 }
 
 TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
-  Undisturbed("20");
+  Undisturbed("8");
   const std::string run_name = "recovery-pause-" + std::to_string(::getpid());
-  Started run(Command(run_name, File("pause.mcap"), "20", "pause"));
+  Started run(Command(run_name, File("pause.mcap"), "8", "pause"));
   ASSERT_TRUE(Runs(run_name));
   std::this_thread::sleep_for(500ms);
   // As a debugger stops it: it goes on when it is let go on.
@@ -349,10 +352,10 @@ TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
   const auto launch = folder_.Write("empty.yaml",
                                     "rodeira: launch/1\nrecovery: pause\nnodes:\n  a: {kind: empty}\n  b: {kind: "
                                     "empty}\n  recorder: {kind: recorder}\n");
-  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "8", "--pace", "real", "--record",
+  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "5", "--pace", "real", "--record",
                File("pace.mcap")});
   ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(4s);
+  std::this_thread::sleep_for(3s);
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"pause"}, {"step", "10"}, {"resume"}, {"restart", "a"}}) {
     std::vector<std::string> command{Bin("rodeira"), "ctl", "--run", run_name};
@@ -365,7 +368,7 @@ TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
   const auto dropped = ended.out.find(" s dropped");
   ASSERT_NE(dropped, std::string::npos) << ended.out;
   const auto begin = ended.out.rfind(' ', dropped - 1);
-  EXPECT_LT(std::stod(ended.out.substr(begin)), 4.0) << "less than it had run before: " << ended.out;
+  EXPECT_LT(std::stod(ended.out.substr(begin)), 3.0) << "less than it had run before: " << ended.out;
 }
 
 // The whole run restarts the nodes that it loses; only without its traffic it is to end.
