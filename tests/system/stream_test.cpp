@@ -39,7 +39,7 @@ bool Earlier(const Recorded& a, const Recorded& b) { return std::tie(a.step, a.s
 class Streams : public ::testing::Test {
  protected:
   Streams()
-      : steps_(static_cast<lockstep::Step>(Setting("RODEIRA_STREAM_STEPS", 1000))),
+      : steps_(static_cast<lockstep::Step>(Setting("RODEIRA_STREAM_STEPS", 400))),
         seed_(Setting("RODEIRA_STREAM_SEED", std::random_device()())) {
     fmt::print("RODEIRA_STREAM_SEED={}\n", seed_);
   }
