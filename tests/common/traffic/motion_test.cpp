@@ -241,7 +241,7 @@ TEST(Motion, PositionAndVelocityAgreeAsVectors) {
         double speed_mps = 0.0;
       };
       std::vector<Before> before(model.vehicles());
-      for (int i = 0; i < (physics == Physics::kFull ? BriefOrLong(1200, 3000) : 9000); ++i) {
+      for (int i = 0; i < (physics == Physics::kFull ? BriefOrLong(1000, 3000) : BriefOrLong(4500, 9000)); ++i) {
         model.Step(kStep_s, {});
         for (const AgentPose& pose : model.poses()) {
           Before& last = before[pose.id];

@@ -12,6 +12,7 @@
 #include "common/traffic/results/study.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -159,7 +160,7 @@ TEST(Motors, DrivesTheMapsAndItsCollisionsAreCounted) {
   for (const char* name : {"crossing", "roundabout", "town"}) {
     StudySettings settings;
     settings.traffic = AsMotors(15);
-    settings.duration_s = 60.0;
+    settings.duration_s = BriefOrLong(40.0, 60.0);
     const StudyResult r = RunStudy(settings, lanes::MapNetwork(name)).value();
     EXPECT_GT(r.arrivals, 3) << name;
     EXPECT_GT(r.mean_speed_mps(), 2.0) << name;

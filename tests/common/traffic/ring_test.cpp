@@ -62,7 +62,7 @@ TEST(Ring, CarsOnARingComeToTheEquilibriumSpeedOfTheIdm) {
     ASSERT_EQ(model.on_road(), cars);
     const Equilibrium at = EquilibriumOf(model, settings.idm);
     ASSERT_LT(GrowthRate(settings.idm, at, cars), -0.002);
-    for (int i = 0; i < 60000; ++i) model.Step(0.02, {});
+    for (int i = 0; i < BriefOrLong(30000, 60000); ++i) model.Step(0.02, {});
     const Spread spread = SpreadOf(model);
     EXPECT_NEAR(spread.mean_mps, at.speed_mps, 0.01) << cars;
     EXPECT_LT(spread.deviation_mps, 0.05) << cars;
@@ -158,7 +158,7 @@ double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
 
 // Clear of the boundary that was measured (docs/explanation/traffic.md) on both sides.
 TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
-  const double for_s = BriefOrLong(80.0, 400.0);
+  const double for_s = BriefOrLong(55.0, 400.0);
   EXPECT_GT(SpreadThroughThePowertrain(0.5, for_s), 0.25);
   EXPECT_LT(SpreadThroughThePowertrain(3.0, for_s), 0.05);
 }

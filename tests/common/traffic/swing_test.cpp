@@ -109,7 +109,7 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
           TrafficModel::Make(settings, map == std::string("bend") ? BendOf29() : lanes::MapNetwork(map), {}).value();
       const lanes::Swings swings = SwingsOf(model.graph(), settings);
       const lanes::LargestCar largest = LargestOf(settings);
-      for (int step = 0; step < BriefOrLong(1200, 4000); ++step) {
+      for (int step = 0; step < BriefOrLong(900, 4000); ++step) {
         model.Step(0.01, {});
         if (step % 10 != 0) continue;
         for (const AgentPose& pose : model.poses()) {
