@@ -30,7 +30,7 @@ void Fuzz(const char* format, const std::vector<std::string>& good, const Read& 
     ASSERT_FALSE(error) << error->Text();
   }
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 1000);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 400);
   std::size_t accepted = 0;
   for (std::size_t number = first; number < first + count; ++number) {
     Draw draw(number);
@@ -47,7 +47,7 @@ void Fuzz(const char* format, const std::vector<std::string>& good, const Read& 
       ++accepted;
     if (testing::Test::HasFailure()) FAIL() << g_last_words << text;
   }
-  if (count < 1000) return;
+  if (count < 400) return;
   EXPECT_GT(accepted, count / 50) << "the mutations are so wild that all is refused at the door";
   EXPECT_LT(accepted, count - count / 5) << "the mutations are so mild that nearly all is accepted";
 }
