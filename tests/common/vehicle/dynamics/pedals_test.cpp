@@ -10,6 +10,7 @@
 #include "common/vehicle/dynamics/ode_model.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 #include "tests/common/vehicle/dynamics/every_model.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -105,7 +106,7 @@ TEST(PedalsOnAHill, AHeldPedalEntersNoGearTwice) {
     Controls controls;
     controls.throttle = hill.throttle;
     std::vector<int> gears{car->state().gear};
-    for (int i = 0; i < 60000; ++i) {
+    for (int i = 0; i < BriefOrLong(30000, 60000); ++i) {
       car->Step(controls, ground, 0.002);
       if (car->state().gear != gears.back()) gears.push_back(car->state().gear);
     }

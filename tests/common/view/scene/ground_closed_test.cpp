@@ -156,7 +156,7 @@ Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
 // also not where a deck begins: the ground below it stops at an abutment, up to the deck's underside, and aprons at its
 // sides meet the underside.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 30) / 3;  // each of them at all levels
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 10) / 2;  // each of them at all levels
   for (const std::string name : {"haste", "motorway", "n222", "flat", "ring", "lights", "example/world"}) {
     const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(world.ok()) << world.error().Text();

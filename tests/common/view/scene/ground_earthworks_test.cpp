@@ -96,7 +96,7 @@ TEST(Ground, ABlendIsWhereTheTyresAre) {
 // plane: points of the whole land hardly meet these strips.
 TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
   constexpr double kBeside_m = 2.0;
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20) / 4;
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 10) / 4;
   const std::string raised =
       "rodeira: world/2\nname: raised\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: "
       "-200, y_m: 30, heading_deg: 10}\n"

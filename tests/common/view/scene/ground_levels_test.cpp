@@ -83,7 +83,7 @@ TEST(GroundLevels, OfSmallRadiiKeepWhatIsAsked) {
 
 // The project's worlds, on tiles drawn by lot from those through which a road runs.
 TEST(GroundLevels, OfTheProjectsWorldsKeepWhatIsAsked) {
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20) / 5;
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 10) / 5;
   for (const std::string name : {"haste", "n222", "ring", "lights"}) {
     const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();

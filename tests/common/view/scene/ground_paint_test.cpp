@@ -14,6 +14,7 @@
 #include "tests/common/view/scene/correlation.hpp"
 #include "tests/common/view/scene/ground_tiles.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
+#include "tests/long_form.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
@@ -102,7 +103,7 @@ TEST(Ground, PaintLiesWhereTheFileSays) {
 // world says, and as much of them as there is. What else is painted (zebra crossings, arrows, stop lines) is not on
 // these two.
 TEST(Ground, PaintOfTheProjectsRoadsLiesWhereTheWorldSays) {
-  for (const std::string name : {"n222", "motorway"}) {
+  for (const std::string& name : BriefOrLong<std::vector<std::string>>({"n222"}, {"n222", "motorway"})) {
     const auto loaded = road::World::Load(SourceDir() + "/configs/worlds/" + name + ".yaml");
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
     const road::World& world = *loaded.value();
