@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # How Rodeira's libraries, programs and tests are declared, and which may use which.
 
+set(RODEIRA_LAUNCHER "" CACHE STRING "The program that is given each command of the compilers; default: ccache")
 find_program(RODEIRA_CCACHE ccache)
-if(RODEIRA_CCACHE)
+if(RODEIRA_CCACHE AND NOT RODEIRA_LAUNCHER)
   # Paths below the sources count relative to the build folder, so that objects of one clone serve another. The
   # sloppiness is what ccache needs for precompiled headers.
   set(RODEIRA_LAUNCHER /usr/bin/env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
       CCACHE_SLOPPINESS=pch_defines,time_macros ${RODEIRA_CCACHE})
+endif()
+if(RODEIRA_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
 endif()
