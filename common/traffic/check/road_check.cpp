@@ -13,7 +13,7 @@ constexpr double kHalfTyre_m = 0.1;
 }  // namespace
 
 RoadCheck::RoadCheck(const lanes::Graph& graph, std::size_t vehicles)
-    : graph_(graph), corridors_(graph), known_(vehicles) {}
+    : graph_(graph), corridors_(graph), gaps_(graph), known_(vehicles) {}
 
 // On the lane of a corridor or of one around it; then `corridor` becomes that one.
 bool RoadCheck::IsOnLane(const Eigen::Vector3d& p_W, std::uint32_t& corridor) {
@@ -59,10 +59,11 @@ std::optional<double> RoadCheck::BesideLanes(const Eigen::Vector3d& p_W) {
   const network::Lane* lane = place ? graph_.network().Find(place->lane) : nullptr;
   if (lane != nullptr && place->distance_m <= kOffLaneTolerance_m && network::IsDrivable(lane->type))
     return std::nullopt;
+  if (gaps_.Holds(p_W)) return std::nullopt;
   return place ? place->distance_m : -1.0;
 }
 
-// On a drivable lane or a shoulder; where roads lie over one another, of any of them.
+// On a drivable lane or a shoulder, or between linked lanes; where roads lie over one another, of any of them.
 bool RoadCheck::IsForVehicles(const Eigen::Vector3d& p_W) {
   const auto place = graph_.network().Locate(p_W.x(), p_W.y(), p_W.z(), &hint_);
   const network::Lane* lane = place ? graph_.network().Find(place->lane) : nullptr;
@@ -75,7 +76,7 @@ bool RoadCheck::IsForVehicles(const Eigen::Vector3d& p_W) {
         std::fabs(curve.At(beside.foot.d_m).p_W.z() - p_W.z()) < network::Network::kLevel_m)
       return true;
   }
-  return false;
+  return gaps_.Holds(p_W);
 }
 
 // Most vehicles are in one corridor as a whole. Of the others axle by axle and wheel by wheel; only what no corridor

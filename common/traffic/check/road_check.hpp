@@ -9,6 +9,7 @@
 
 #include "common/traffic/check/body_size.hpp"
 #include "common/traffic/check/corridors.hpp"
+#include "common/traffic/check/joint_gaps.hpp"
 #include "common/traffic/state/agent.hpp"
 
 namespace rodeira::traffic {
@@ -38,6 +39,7 @@ class RoadCheck {
 
   const lanes::Graph& graph_;
   Corridors corridors_;
+  JointGaps gaps_;
   std::vector<Known> known_;  // by vehicle
   network::Hint hint_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/traffic/network/kink_way.hpp"
 #include "common/world/lanes/ring.hpp"
 
 namespace rodeira::traffic {
@@ -38,6 +39,37 @@ int TurnDirection(const lanes::Graph& graph, std::uint32_t track) {
   const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
   return std::fabs(angle) < kTurn ? 0 : angle > 0.0 ? 1 : -1;
 }
+
+// A track as vehicles drive it that come onto it round a kink: their path bends behind its beginning.
+class BehindKink final : public driver::Way {
+ public:
+  BehindKink(const lanes::Graph& graph, std::uint32_t track) : track_(graph, track) {
+    for (const std::uint32_t before : graph[track].before) {
+      for (const lanes::Link& link : graph[before].next) {
+        const auto way_m = link.to == track && !link.joins ? KinkWay_m(link.slope) : std::nullopt;
+        const double bends_1pm = way_m ? -link.slope * kQuinticBend / *way_m : 0.0;
+        if (std::fabs(bends_1pm) > std::fabs(bends_1pm_)) bends_1pm_ = bends_1pm, to_m_ = 0.5 * *way_m;
+      }
+    }
+  }
+
+  double length_m() const override { return track_.length_m(); }
+  double SpeedLimit_mps(double d_m) const override { return track_.SpeedLimit_mps(d_m); }
+  driver::LaneFrame At(double d_m) const override {
+    driver::LaneFrame frame = track_.At(d_m);
+    if (d_m < to_m_) frame.curvature_1pm += bends_1pm_;
+    return frame;
+  }
+  double VerticalCurvature_1pm(double d_m) const override { return track_.VerticalCurvature_1pm(d_m); }
+  Eigen::Vector3d Position(double d_m, double offset_m) const override { return track_.Position(d_m, offset_m); }
+  std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m) const override {
+    return track_.Locate(x_m, y_m, z_m);
+  }
+
+ private:
+  TrackWay track_;
+  double bends_1pm_ = 0.0, to_m_ = 0.0;
+};
 
 }  // namespace
 
@@ -78,7 +110,7 @@ std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::
 }
 
 TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)
-    : plan(TrackWay(graph, track), settings),
+    : plan(BehindKink(graph, track), settings),
       limit_mps(graph.SpeedLimit_mps(track, 0.0)),
       one_limit(HasOneLimit(graph, track)),
       turn(TurnDirection(graph, track)) {

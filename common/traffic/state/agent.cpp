@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/traffic/lane_change/lane_change.hpp"
+#include "common/traffic/network/kink_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -203,7 +204,7 @@ Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& lin
   const double wanted =
       std::max({speed_mps * std::sqrt(5.77 * size / kBlendAcceleration_mps2),
                 1.875 * speed_mps * size / kBlendSpeed_mps, 6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
-  piece.blend_m = std::clamp(wanted, kShortestBlend_m, kLongestBlend_m);
+  piece.blend_m = std::clamp(wanted, kShortestBlend_m, KinkWay_m(link.slope).value_or(kLongestBlend_m));
   return piece;
 }
 

@@ -19,6 +19,7 @@ constexpr double kAside_m = 0.7;      // over twice this the bank is measured
 struct Motion {
   Eigen::Vector3d p_W, v_W;  // v by s
   double bank = 0.0, width_m = 0.0;
+  Eigen::Vector2d road_W;  // the way of the road's line, of unit length
 };
 
 constexpr double kWide_m = 3.0;     // from this width on traffic keeps to the middle
@@ -62,7 +63,8 @@ Motion MotionAt(const network::Network& network, const network::LaneKey& lane, i
     const Eigen::Vector3d across = road.Surface(s, t + aside).p_W - road.Surface(s, t - aside).p_W;
     bank = across.z() / std::max(1e-9, across.head<2>().norm());
   }
-  return {at.p_W, at.ds_W + slope * at.dt_W, bank, width};
+  const Eigen::Vector2d across_W = at.dt_W.head<2>().normalized();
+  return {at.p_W, at.ds_W + slope * at.dt_W, bank, width, {across_W.y(), -across_W.x()}};
 }
 
 // The cubic with both nodes' tangents; curvature and bank go over evenly.
@@ -82,6 +84,56 @@ CurvePoint Between(const Curve::Node& a, const Curve::Node& b, double d_m) {
   return point;
 }
 
+constexpr double kFolds = 0.1;      // m a metre of the road's line: a middle that advances less folds
+constexpr double kAdvances = 0.25;  // m a metre of the road's line, from one node to the next of a lane that folds
+constexpr double kFoldedNode_m = 0.5;
+
+bool Advances(const Curve::Node& a, const Curve::Node& b) {
+  const Eigen::Vector2d chord_W = (b.p_W - a.p_W).head<2>();
+  const double least = kAdvances * std::fabs(b.s_m - a.s_m);
+  return chord_W.dot(a.along_W.head<2>()) > least && chord_W.dot(b.along_W.head<2>()) > least;
+}
+
+// The length of the arc with these nodes' tangents, about.
+double ArcLength_m(const Curve::Node& a, const Curve::Node& b) {
+  const Eigen::Vector2d from = a.along_W.head<2>(), to = b.along_W.head<2>();
+  const double half = 0.5 * std::fabs(std::atan2(geometry::Cross(from, to), from.dot(to)));
+  const double stretch = half < 1e-6 ? 1.0 : half / std::sin(half);
+  return std::max(kShortest_m, stretch * (b.p_W - a.p_W).head<2>().norm());
+}
+
+// A lane's middle on the inner side of a bend that is tighter than the lane is far from the road's line goes back, or
+// stands. Without the nodes there it advances everywhere; new ones lie on the cubics between the others.
+std::vector<Curve::Node> Unfolded(const std::vector<Curve::Node>& nodes, const std::vector<bool>& folds) {
+  std::vector<Curve::Node> kept{nodes.front()};
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    if (!folds[i] && Advances(kept.back(), nodes[i])) kept.push_back(nodes[i]);
+  }
+  while (kept.size() > 1 && !Advances(kept.back(), nodes.back())) kept.pop_back();
+  kept.push_back(nodes.back());
+  std::vector<Curve::Node> all{kept.front()};
+  for (std::size_t i = 1; i < kept.size(); ++i) {
+    Curve::Node from = kept[i - 1], to = kept[i];
+    from.d_m = 0.0, to.d_m = ArcLength_m(from, to);
+    const int parts = std::max(1, static_cast<int>(std::ceil(to.d_m / kFoldedNode_m)));
+    for (int part = 1; part < parts; ++part) {
+      const double x = static_cast<double>(part) / parts;
+      const CurvePoint at = Between(from, to, x * to.d_m);
+      Curve::Node node = to;
+      node.s_m = from.s_m + x * (to.s_m - from.s_m);
+      node.p_W = at.p_W;
+      node.along_W << at.ahead_W, at.grade;
+      node.bank = at.bank;
+      node.width_m = from.width_m + x * (to.width_m - from.width_m);
+      all.push_back(node);
+    }
+    all.push_back(to);
+  }
+  all.front().d_m = 0.0;
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].d_m = all[i - 1].d_m + ArcLength_m(all[i - 1], all[i]);
+  return all;
+}
+
 }  // namespace
 
 Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool along) {
@@ -93,6 +145,8 @@ Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool
   };
   const int gives_way = GivesWay(network, lane);
   double d = 0.0;
+  std::vector<bool> folds;
+  bool any_folds = false;
   for (int i = 0; i <= count; ++i) {
     if (i > 0) {  // Gauss's rule of two points
       const double off = 0.5 / std::sqrt(3.0);
@@ -104,7 +158,15 @@ Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool
     const double speed = std::max(1e-9, at.v_W.head<2>().norm());
     nodes_.push_back({d, station(i), at.p_W, (along ? at.v_W : Eigen::Vector3d(-at.v_W)) / speed, 0.0,
                       along ? at.bank : -at.bank, at.width_m});
+    folds.push_back(at.v_W.head<2>().dot(at.road_W) < kFolds);
+    const double advance_m = i == 0 ? length
+                                    : (nodes_.back().p_W - nodes_[nodes_.size() - 2].p_W)
+                                          .head<2>()
+                                          .dot(nodes_[nodes_.size() - 2].along_W.head<2>());
+    any_folds = any_folds || folds.back() || advance_m < kFolds * length / count;
+    if (folds.back()) nodes_.back().along_W << (along ? at.road_W : Eigen::Vector2d(-at.road_W)), 0.0;
   }
+  if (any_folds) nodes_ = Unfolded(nodes_, folds);
   length_m_ = nodes_.back().d_m;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& low = nodes_[i == 0 ? 0 : i - 1];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/core/geometry/plane.hpp"
 #include "common/world/lanes/right_of_way.hpp"
@@ -17,6 +18,9 @@ constexpr double kApart_m = 8.0;    // two zones of one pair are as far apart
 constexpr double kSamePlace_m = 1.0;
 constexpr double kSameHeading = 0.95;  // cosine
 constexpr double kFollowing_m = 12.0;  // tracks that follow within this distance are no conflict
+constexpr double kSplits_m = 1.0;      // between the beginnings of ways on from a lane that splits …
+constexpr double kAcross_spm = 2.35;   // … and how long traffic takes across to one of them
+constexpr double kLongestSplit_m = 90.0;
 
 // Tracks and how much of a way was left where each was come to at best: rings of short lanes are gone round no second
 // time.
@@ -88,6 +92,25 @@ double HalfTowards(const Curve::Node& node, std::size_t index, const Swings& swi
   return std::max(half, left ? swings[track][index].left_m : swings[track][index].right_m);
 }
 
+// The pairs of ways on from one lane that begin apart, as where it splits into two, and over how many metres traffic
+// comes from its middle onto theirs.
+std::map<std::pair<std::uint32_t, std::uint32_t>, double> SplitsOf(const Graph& graph) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> splits;
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    const auto& next = graph[track].next;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      for (std::size_t k = i + 1; k < next.size(); ++k) {
+        if (next[i].joins || next[k].joins || std::fabs(next[i].offset_m - next[k].offset_m) < kSplits_m) continue;
+        const double across_m = std::max(std::fabs(next[i].offset_m), std::fabs(next[k].offset_m)),
+                     speed_mps = graph.SpeedLimit_mps(track, graph[track].length_m());
+        double& way_m = splits[{next[i].to, next[k].to}];
+        way_m = std::max(way_m, std::min(kLongestSplit_m, kAcross_spm * across_m * speed_mps));
+      }
+    }
+  }
+  return splits;
+}
+
 }  // namespace
 
 Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
@@ -96,6 +119,7 @@ Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
     for (const Swing& swing : nodes) widest = std::max({widest, swing.left_m, swing.right_m});
   }
   const double reach = 2.0 * widest + kMargin_m + kSpacing_m;
+  const auto splits = SplitsOf(graph);
   std::vector<NodeKey> near;
   for (std::uint32_t a = 0; a < graph.tracks().size(); ++a) {
     std::map<std::uint32_t, std::vector<Touch>> touches;  // by the other track
@@ -113,6 +137,13 @@ Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
         const Curve::Foot foot = other.FootNear(p, key.node);
         if ((other.At(foot.d_m).p_W.head<2>() - p).norm() < wide) touches[key.track].push_back({node.d_m, foot.d_m});
       }
+    }
+    for (auto split = splits.lower_bound({a, 0}); split != splits.end() && split->first.first == a; ++split) {
+      const std::uint32_t b = split->first.second;
+      const double way_m = std::min({split->second, graph[a].length_m(), graph[b].length_m()});
+      std::vector<Touch>& places = touches[b];
+      for (double d = 0.0; d <= way_m; d += kSpacing_m) places.push_back({d, d});
+      std::stable_sort(places.begin(), places.end(), [](const Touch& x, const Touch& y) { return x.a_m < y.a_m; });
     }
     for (const auto& [b, places] : touches) Pair(graph, a, b, places);
   }

@@ -153,6 +153,34 @@ TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
   }
 }
 
+// A lane of 6 m that goes on as two of 3 m: their middles lie too far apart for cars that keep to them to touch, but
+// cars come there from one middle.
+TEST(Zones, TheWaysOnFromALaneThatSplitsPart) {
+  const auto lane = [](int id, double width_m, const char* link) {
+    return fmt::format(
+        "<lane id=\"{}\" type=\"driving\"><link>{}</link><width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" "
+        "d=\"0\"/></lane>",
+        id, link, width_m);
+  };
+  opendrive::RoadText road;
+  road.left = "";
+  road.right = lane(-1, 6.0, "<successor id=\"-1\"/><successor id=\"-2\"/>") +
+               "</right></laneSection><laneSection s=\"40\"><center><lane id=\"0\" type=\"none\"/></center><right>" +
+               lane(-1, 3.0, "<predecessor id=\"-1\"/>") + lane(-2, 3.0, "<predecessor id=\"-1\"/>");
+  const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+  const Graph graph(*network);
+  ASSERT_EQ(graph.tracks().size(), 3u);
+  const Zones zones(graph);
+  ASSERT_EQ(zones.zones().size(), 1u);
+  const Zone& zone = zones[0];
+  EXPECT_EQ(zone.kind, ZoneKind::kDiverge);
+  for (const std::size_t side : {0u, 1u}) {
+    EXPECT_EQ(graph[zone.track[side]].lane.section, 1u);
+    EXPECT_EQ(zone.in_m[side], 0.0);
+    EXPECT_GT(zone.out_m[side], 30.0);  // 1.5 m aside at 0.8 m/s and 50 km/h
+  }
+}
+
 // A way with a STOP sign yields to one without.
 TEST(Zones, AWayWithAStopIsNotFirst) {
   const auto network = MapNetwork("crossing");
