@@ -5,6 +5,16 @@ namespace rodeira::road {
 
 using Eigen::Vector2d;
 
+SteeperBounds::SteeperBounds(const LandBounds& tightest)
+    : tightest_low_m_(tightest.low_m()), tightest_high_m_(tightest.high_m()) {
+  const LandBound &low = tightest.low(), &high = tightest.high();
+  const double sum = low.distance_m + high.distance_m;
+  slope_ = sum > 0.0 ? std::max(kBank, (low.z_m - high.z_m) / sum) : kBank;
+  low_m_ = low.z_m - slope_ * low.distance_m - kRounding_m;
+  high_m_ = high.z_m + slope_ * high.distance_m + kRounding_m;
+  farther_m_ = std::max(low.distance_m, high.distance_m) + kRounding_m;
+}
+
 void LandBounds::Add(const LandBound& bound, double distance_m) {
   if (every_) all_.push_back(bound);
   nearest_m_ = std::min(nearest_m_, distance_m);

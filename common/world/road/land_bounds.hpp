@@ -19,6 +19,26 @@ struct LandBound {
   Eigen::Vector2d z_slope_W = Eigen::Vector2d::Zero(), distance_slope_W = Eigen::Vector2d::Zero();
 };
 
+class LandBounds;
+
+// Where the tightest two bounds leave no land of the slope kBank: which others may matter at the least slope at which
+// all bounds meet, which is steeper.
+class SteeperBounds {
+ public:
+  explicit SteeperBounds(const LandBounds& tightest);
+
+  // What lies between two heights matters only where it is no farther than this (m).
+  double Within_m(double lowest_m, double highest_m) const {
+    return std::max({farther_m_,
+                     std::max(highest_m - tightest_low_m_, tightest_high_m_ - lowest_m) / kBank + kRounding_m,
+                     (highest_m - low_m_) / slope_, (high_m_ - lowest_m) / slope_});
+  }
+
+ private:
+  static constexpr double kRounding_m = 1e-6;
+  double tightest_low_m_, tightest_high_m_, slope_, low_m_, high_m_, farther_m_;
+};
+
 // Of all bounds at a point the tightest lower and the tightest upper one for the slope kBank, in whatever order they
 // are told: of equally tight ones that of the lowest rank, and of one rank the first. Without any there is no bound,
 // either way.
@@ -27,7 +47,10 @@ class LandBounds {
   // every: keeps all of them, which must be told in the order of their ranks.
   void Clear(bool every) {
     low_ = high_ = {}, low_m_ = -kInfinity, high_m_ = nearest_m_ = kInfinity, every_ = every, all_.clear();
+    steeper_ = nullptr;
   }
+  // All are kept of which this does not say that they do not matter; it must outlive the next Meet or Clear.
+  void ClearForSteeper(const SteeperBounds& steeper) { Clear(true), steeper_ = &steeper; }
   void Rank(std::uint32_t rank) { rank_ = rank; }       // of what is told next
   void Leads() { low_rank_ = high_rank_ = 0; }          // what was told so far counts before all ranks from 1 on
   void Add(const LandBound& bound, double distance_m);  // how far away its place is
@@ -38,6 +61,7 @@ class LandBounds {
   double high_m() const { return high_m_; }
   double nearest_m() const { return nearest_m_; }
   bool every() const { return every_; }
+  const SteeperBounds* steeper() const { return steeper_; }
   // What lies between two heights can hold the land tighter only where it is nearer than this. Not positive: nowhere.
   double TightensWithin(double lowest_m, double highest_m) const {
     return std::max(highest_m - low_m_, high_m_ - lowest_m) / kBank;
@@ -53,6 +77,7 @@ class LandBounds {
   std::uint32_t rank_ = 0, low_rank_ = 0, high_rank_ = 0;
   bool every_ = false;
   std::vector<LandBound> all_;
+  const SteeperBounds* steeper_ = nullptr;
 };
 
 }  // namespace rodeira::road

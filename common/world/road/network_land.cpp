@@ -250,10 +250,13 @@ void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& 
     const Vector2d station = found + side * (left ? 1.0 : -1.0) * (place.axis.left_W() - place.t_slope * found);
     FromPlace(MovedTo(s, road, panel, place, piece.steady), station, reach, p_W, bounds);
   }
-  const bool all = bounds.every() || !(bounds.nearest_m() < kVerge_m);
+  const SteeperBounds* steeper = bounds.steeper();
+  const bool all = steeper == nullptr && (bounds.every() || !(bounds.nearest_m() < kVerge_m));
   for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) {
-    const double within_m = bounds.TightensWithin(post_W.z(), post_W.z()) +
-                            kDistanceRounding_m;  // most hold nothing: that is told without a root
+    const double within_m = steeper != nullptr
+                                ? steeper->Within_m(post_W.z(), post_W.z())
+                                : bounds.TightensWithin(post_W.z(), post_W.z()) +
+                                      kDistanceRounding_m;  // most hold nothing: that is told without a root
     if (all || (within_m > 0.0 && (p_W - post_W.head<2>()).squaredNorm() <= within_m * within_m))
       FromPost(post_W, p_W, bounds);
   }
@@ -406,19 +409,12 @@ std::optional<PlaneHeight> NetworkLand::AtBySearch(const Vector2d& p_W) const {
 // least slope by which the tightest two meet, and at any greater one, what is farther than they are and holds the land
 // no tighter does not.
 PlaneHeight NetworkLand::Steep(const LandBounds& tightest, const Vector2d& p_W) const {
-  const LandBound &low = tightest.low(), &high = tightest.high();
-  const double sum = low.distance_m + high.distance_m,
-               slope = sum > 0.0 ? std::max(kBank, (low.z_m - high.z_m) / sum) : kBank;
-  const double low_m = low.z_m - slope * low.distance_m - kDistanceRounding_m,
-               high_m = high.z_m + slope * high.distance_m + kDistanceRounding_m;
-  const double farther_m = std::max(low.distance_m, high.distance_m) + kDistanceRounding_m;
+  const SteeperBounds steeper(tightest);
   const auto within = [&](const EdgeHeights& heights) {
-    return std::min(kHolds_m,
-                    std::max({farther_m, tightest.TightensWithin(heights.low_m, heights.high_m) + kDistanceRounding_m,
-                              (heights.high_m - low_m) / slope, (high_m - heights.low_m) / slope}));
+    return std::min(kHolds_m, steeper.Within_m(heights.low_m, heights.high_m));
   };
   thread_local LandBounds bounds;
-  bounds.Clear(true);
+  bounds.ClearForSteeper(steeper);
   EachOf(
       near_.At(p_W), [&](const Around& around) { return around.MayBeWithin(p_W, within(around.heights)); },
       [&](std::uint32_t piece) {
