@@ -18,6 +18,16 @@ constexpr double kEnteringShare = 0.95;  // of the speed it wants
 constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
 constexpr double kUntouched_m = 0.4;     // between a vehicle that enters by MOTORS' rule and its leader, at least
 
+// How far on a lane the rear bumper of a vehicle is that enters: at the beginning, or, where no other entry is wider
+// and the lane opens there, where it is as wide as a vehicle.
+double EntersAt_m(const lanes::Graph& graph, std::uint32_t track) {
+  const auto& nodes = graph[track].curve.nodes();
+  if (graph.says_entries() || nodes.front().width_m >= kMinSpawnWidth_m) return 0.0;
+  const auto wide = std::find_if(nodes.begin(), nodes.end(),
+                                 [](const lanes::Curve::Node& node) { return node.width_m >= kMinSpawnWidth_m; });
+  return wide == nodes.end() ? 0.0 : wide->d_m;
+}
+
 }  // namespace
 
 // Where it enters on this trip: by lot.
@@ -123,15 +133,16 @@ bool Entering::IsExpected(std::uint32_t track, double gap_m) const {
   return false;
 }
 
-// With its rear bumper at the lane's beginning, at its own speed or at that of the car ahead, once the gap bears it.
+// With its rear bumper at the lane's beginning (EntersAt_m), at its own speed or at that of the car ahead, once the gap
+// bears it.
 bool Entering::TryEnter(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];
-  const double half = 0.5 * traits.length_m;
+  const double half = 0.5 * traits.length_m, at_m = EntersAt_m(in_.map.graph, agent.entry);
   const bool as_motors = in_.settings.enters == EnterRule::kFree;
   const double free_m = std::max(in_.settings.free_m, traits.length_m + kUntouched_m);  // of the lane, by that rule
   for (const Block& block : in_.blocks[agent.entry]) {
-    if (block.span.rear_m < (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) &&
+    if (block.span.rear_m < at_m + (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) &&
         block.span.front_m > 0.0)
       return false;
   }
@@ -139,7 +150,7 @@ bool Entering::TryEnter(std::uint32_t id) {
   if (looks && IsExpected(agent.entry, traits.idm.standing_gap_m)) return false;
   Agent entering = agent;
   entering.on_road = true;
-  entering.o_m = half;
+  entering.o_m = at_m + half;
   entering.path = {{agent.entry, 0.0, 0.0, 0.0, 0.0, 1.0}};
   std::swap(agent, entering);
   const auto wait = [&] {
@@ -158,7 +169,8 @@ bool Entering::TryEnter(std::uint32_t id) {
   for (const std::uint32_t other : out_.present.Of(agent.entry)) {
     for (const Piece& piece : out_.agents[other].path) {
       const double rear = out_.agents[other].o_m - 0.5 * in_.traits[other].length_m - piece.zero_m;
-      if (piece.track == agent.entry && rear < (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m))
+      if (piece.track == agent.entry &&
+          rear < at_m + (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m))
         return wait();
     }
   }

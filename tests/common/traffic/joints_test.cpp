@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lanes of other people's roads that meet with a gap, a kink, or where one splits into two: traffic drives there within
-// its lanes, and what lies between linked ends is no place beside the road.
+// Lanes of other people's roads that meet with a gap, a kink, or where one splits into two, or open from nothing:
+// traffic drives there within its lanes, and what lies between linked ends is no place beside the road.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,6 +105,20 @@ TEST(Joints, TrafficOfALaneThatSplitsDoesNotTouch) {
                Lane(-1, 3.0, "<predecessor id=\"-1\"/>") + Lane(-2, 3.0, "<predecessor id=\"-1\"/>");
   const StudyResult driven = Drive(opendrive::MustRead(opendrive::Document(road.Text())));
   EXPECT_GT(driven.arrivals, 10);
+  EXPECT_EQ(driven.collisions, 0);
+}
+
+// A lane that opens from nothing to 6 m over 24 m and is the only one: traffic enters where it has the width.
+TEST(Joints, TrafficEntersALaneThatOpensWhereItIsWideEnough) {
+  opendrive::RoadText road;
+  road.left = "";
+  road.right =
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"0\" b=\"0.25\" c=\"0\" d=\"0\"/>"
+      "<width sOffset=\"24\" a=\"6\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+  const StudyResult driven = Drive(opendrive::MustRead(opendrive::Document(road.Text())));
+  EXPECT_GT(driven.arrivals, 5);
+  EXPECT_EQ(driven.wheels_off, 0);
+  EXPECT_EQ(driven.off_lane, 0);
   EXPECT_EQ(driven.collisions, 0);
 }
 
