@@ -6,12 +6,13 @@
 
 #include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/edge_contact.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kMinLean = 0.3;         // cosine between strut and normal, for walls
+constexpr double kMinLean = 0.0;         // cosine between strut and normal: at a wall the strut bears nothing
 constexpr double kMaxTilt_rad = 0.45;    // of the body against the ground under it
 constexpr double kSurelyUpright = 0.95;  // a cosine over that of the most tilt
 constexpr double kMinHeight = 0.4;       // of the centre of gravity over that ground, share of its height at rest
@@ -103,6 +104,16 @@ std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chass
   return motion;
 }
 
+// The tyre is pressed in along the normal, whatever the camber.
+void BicycleCar::RollOn(const BicycleChassis& chassis, const std::array<WheelGround, kWheels>& before) {
+  const Eigen::Vector3d up_W = body.q_WG * Eigen::Vector3d::UnitZ();
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const WheelDisc disc{HubAtRest_W(chassis, i) + wheels[i].corner.travel_m() * up_W, Eigen::Vector3d::Zero(),
+                         chassis.settings.wheel.radius_m};
+    dynamics::RollOn(before[i], disc, wheels[i]);
+  }
+}
+
 void BicycleCar::Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
                       BicycleFindings& findings) {
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestSubstep_s - 1e-6)));
@@ -135,7 +146,7 @@ void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls
     wheel.spin_rad = geometry::WrapAngle(wheel.spin_rad + dt_s * wheel.spin_radps);
   }
   body.Move(dt_s);
-  KeepUpright(chassis, contacts);
+  KeepUpright(chassis, contacts, dt_s);
 }
 
 void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s,
@@ -198,7 +209,9 @@ Eigen::Vector3d RoadNormal(const BicycleContacts& contacts) {
 }
 
 // Bounds that a car meets only in flight, on walls and on cliffs, where a single-track model means nothing any more.
-void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts) {
+// They take back what the last step has moved beyond them, and no more: where the ground under the car has changed,
+// they do not lift it.
+void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts, double dt_s) {
   const Eigen::Vector3d normal = RoadNormal(contacts);
   const Eigen::Vector3d up = body.q_WG * Eigen::Vector3d::UnitZ();
   const double upright = up.dot(normal);
@@ -207,9 +220,11 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
     const Eigen::Vector3d cross = up.cross(normal);
     const Eigen::Vector3d axis =
         cross.norm() > 1e-9 ? Eigen::Vector3d(cross.normalized()) : body.q_WG * Eigen::Vector3d::UnitX();
-    body.q_WG = (Eigen::Quaterniond(Eigen::AngleAxisd(tilt - kMaxTilt_rad, axis)) * body.q_WG).normalized();
     const Eigen::Vector3d turning = body.q_WG.conjugate() * axis;
-    body.w_WG_G -= std::min(0.0, body.w_WG_G.dot(turning)) * turning;
+    const double away_radps = std::min(0.0, body.w_WG_G.dot(turning));
+    const double back_rad = std::min(tilt - kMaxTilt_rad, -away_radps * dt_s);
+    body.q_WG = (Eigen::Quaterniond(Eigen::AngleAxisd(back_rad, axis)) * body.q_WG).normalized();
+    body.w_WG_G -= away_radps * turning;
   }
   const double turn = body.w_WG_G.norm();
   if (turn > kMaxBodyRate_radps) body.w_WG_G *= kMaxBodyRate_radps / turn;
@@ -218,8 +233,9 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
   for (const BicycleContact& contact : contacts) middle += 0.25 * contact.point_W;
   const double missing = kMinHeight * chassis.settings.body.cg_height_m - (body.p_WG_W - middle).dot(normal);
   if (missing > 0.0) {
-    body.p_WG_W += missing * normal;
-    body.v_WG_W -= std::min(0.0, body.v_WG_W.dot(normal)) * normal;
+    const double down_mps = std::min(0.0, body.v_WG_W.dot(normal));
+    body.p_WG_W += std::min(missing, -down_mps * dt_s) * normal;
+    body.v_WG_W -= down_mps * normal;
   }
 }
 

@@ -85,6 +85,9 @@ struct BicycleCar {
     return body.p_WG_W + body.q_WG * chassis.p_GH_B[wheel];
   }
 
+  // After a query of the ground in a run: what was under the wheels before it.
+  void RollOn(const BicycleChassis& chassis, const std::array<WheelGround, kWheels>& before);
+
   // A step of any length with the controls held and the ground's planes as they are, in substeps of at most 1 ms.
   // `controls` are cut to their bounds (Cut), the push holds all the while.
   void Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
@@ -106,7 +109,7 @@ struct BicycleCar {
                BicycleFindings& findings);
   void TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s, BicycleFindings& findings);
   void PushBody(const BicycleChassis& chassis, const Wrench& push, double dt_s, BicycleFindings& findings);
-  void KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts);
+  void KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts, double dt_s);
 };
 
 // The plane under the car: parallel to both diagonals of the contact points, which for four points of a plane is

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/vehicle/dynamics/edge_contact.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 namespace rodeira::dynamics {
@@ -23,7 +24,10 @@ void BicycleModel::QueryGround(ground::Ground& ground, double steering_wheel_rad
 void BicycleModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls clamped = Clamp(controls);
+  std::array<WheelGround, kWheels> before;
+  for (std::size_t i = 0; i < kWheels; ++i) before[i] = car_.wheels[i];
   QueryGround(ground, clamped.steering_wheel_rad);
+  car_.RollOn(chassis_, before);
   car_.Step(chassis_, clamped, push_, dt_s, findings_);
   push_ = {};
   Publish(clamped, dt_s);

@@ -58,7 +58,12 @@ void CarArray::QueryGround(ground::Ground& ground) {
   std::size_t answer = 0;
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     if (!present(i)) continue;
-    for (std::size_t k = 0; k < kWheels; ++k, ++answer) cars_[i].wheels[k].Update(queries_[answer], points_[answer]);
+    std::array<WheelGround, kWheels> before;
+    for (std::size_t k = 0; k < kWheels; ++k, ++answer) {
+      before[k] = cars_[i].wheels[k];
+      cars_[i].wheels[k].Update(queries_[answer], points_[answer]);
+    }
+    cars_[i].RollOn(chassis(i), before);
   }
 }
 

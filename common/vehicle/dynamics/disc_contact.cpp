@@ -6,10 +6,19 @@
 #include <cmath>
 
 namespace rodeira::dynamics {
+namespace {
+
+constexpr double kMinLean = 0.2;
+
+}  // namespace
+
+double LeanOf(const Eigen::Vector3d& axle_W, const Eigen::Vector3d& normal_W) {
+  const double tilt = std::clamp(axle_W.dot(normal_W), -1.0, 1.0);
+  return std::max(kMinLean, std::sqrt(1.0 - tilt * tilt));
+}
 
 DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m,
                       const Eigen::Vector3d& plane_W, const Eigen::Vector3d& normal_W) {
-  constexpr double kMinLean = 0.2;
   const double tilt = std::clamp(axle_W.dot(normal_W), -1.0, 1.0);
   DiscContact contact;
   contact.camber_rad = std::asin(tilt);

@@ -15,6 +15,9 @@ struct DiscContact {
   double camber_rad = 0.0;    // asin(axle · normal): positive when it leans to the right
 };
 
+// Cosine between the plane of a disc with this axle and the normal (both of unit length), cut at 0.2.
+double LeanOf(const Eigen::Vector3d& axle_W, const Eigen::Vector3d& normal_W);
+
 // Centre and axle (unit, to the left) of the disc, a point and the unit normal of the plane.
 DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m,
                       const Eigen::Vector3d& plane_W, const Eigen::Vector3d& normal_W);

@@ -57,6 +57,7 @@ void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std:
   wheel.inside = below.inside;
   wheel.surface = below.surface;
   if (!wheel.inside) return;
+  wheel.edge.reset();
   Touch first;
   for (int i = 0; i < kRingPoints; ++i) {
     const ground::GroundPoint& point = points[static_cast<std::size_t>(i)];

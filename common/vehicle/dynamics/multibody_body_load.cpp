@@ -35,6 +35,16 @@ void BodyLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const
   sink.PushTorque(chassis_, push_.moment_WB_W, motion.q);
 }
 
+double BodyLoad::Energy(const multibody::Motion& motion) const {
+  double energy = 0.0;
+  for (const multibody::Form& corner : corners_) {
+    if (origin_.terms.empty()) continue;
+    const double depth = std::max(0.0, (ground_W_ - multibody::Evaluate(corner, motion.q)).dot(normal_W_));
+    energy += 0.5 / kBorneBy * settings_.stiffness_Npm * depth * depth;
+  }
+  return energy;
+}
+
 double BodyLoad::Force(const multibody::Motion& motion) const {
   double force = 0.0;
   for (const multibody::Form& corner : corners_)

@@ -28,6 +28,7 @@ class BodyLoad final : public multibody::Load {
   void LeaveGround() { SetGround({0.0, 0.0, -1e9}, Eigen::Vector3d::UnitZ()); }
 
   void Add(const multibody::Motion& motion, multibody::Sink& sink) const override;
+  double Energy(const multibody::Motion& motion) const override;
   double Force(const multibody::Motion& motion) const override;  // of the ground, along its normal
 
  private:

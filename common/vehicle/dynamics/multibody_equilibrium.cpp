@@ -269,6 +269,7 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
     wheels_[i].load->SetStep(forces_[i], torques_.friction_Nm[i], wheels_[i].spin_radps);
   }
   hands_rad_ = 0.0;
+  lowered_m_ = 0.0;
   forward_mps2_ = 0.0;
   lateral_mps2_ = 0.0;
   assists_ = {};

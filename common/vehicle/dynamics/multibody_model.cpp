@@ -6,6 +6,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/edge_contact.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 #include "common/vehicle/dynamics/tyre_pressure.hpp"
 
@@ -125,9 +126,15 @@ void MultibodyModel::QueryGround(ground::Ground& ground) {
 void MultibodyModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls clamped = Clamp(controls);
+  std::array<WheelGround, kWheels> before;
+  for (std::size_t i = 0; i < kWheels; ++i) before[i] = wheels_[i];
+  const Plane was = GroundPlane({&before[0], &before[1], &before[2], &before[3]});
   QueryGround(ground);
+  for (std::size_t i = 0; i < kWheels; ++i)
+    RollOn(before[i], {Hub_W(i), system_->motion().At(settings_.wheels[i].axle), settings_.wheel.radius_m}, wheels_[i]);
   const Plane under = GroundPlane({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
-  body_load_->SetGround(under.point_W, under.normal_W);
+  lowered_m_ = LoweredBy(was, lowered_m_, under, X_WB(), BoxOf(settings_.dimensions, CollisionSettings{}));
+  body_load_->SetGround(under.point_W - lowered_m_ * under.normal_W, under.normal_W);
   body_load_->SetPush(push_);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(clamped, dt_s / substeps);

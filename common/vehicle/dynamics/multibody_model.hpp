@@ -112,6 +112,7 @@ class MultibodyModel final : public VehicleModel {
   double forward_mps2_ = 0.0;
   double lateral_mps2_ = 0.0;
   double hands_rad_ = 0.0;  // steering wheel at the end of the last substep
+  double lowered_m_ = 0.0;  // of the plane under the body (LoweredBy)
   std::array<TyreForces, kWheels> forces_;
   WheelTorques torques_;
   multibody::StepReport report_;

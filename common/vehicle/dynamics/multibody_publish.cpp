@@ -104,6 +104,7 @@ void MultibodyModel::Save(base::StateWriter& writer) const {
   writer.Put("forward_mps2", forward_mps2_);
   writer.Put("lateral_mps2", lateral_mps2_);
   writer.Put("hands_rad", hands_rad_);
+  if (lowered_m_ > 0.0) writer.Put("lowered_m", lowered_m_);
   writer.Put("published", state_);
 }
 
@@ -115,6 +116,8 @@ void MultibodyModel::Restore(base::StateReader& reader) {
   reader.Get("forward_mps2", forward_mps2_);
   reader.Get("lateral_mps2", lateral_mps2_);
   reader.Get("hands_rad", hands_rad_);
+  lowered_m_ = 0.0;
+  if (reader.Has("lowered_m")) reader.Get("lowered_m", lowered_m_);
   reader.Get("published", state_);
 }
 

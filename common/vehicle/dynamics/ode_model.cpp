@@ -6,6 +6,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/vehicle/dynamics/edge_contact.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 namespace rodeira::dynamics {
@@ -90,9 +91,20 @@ void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_
   const Controls clamped = Clamp(controls);
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
   now_.bodies = car_->bodies();
+  std::array<WheelGround, kWheels> before;
+  for (std::size_t i = 0; i < kWheels; ++i) before[i] = now_.wheels[i];
+  const Plane was = GroundPlane({&before[0], &before[1], &before[2], &before[3]});
   QueryGround(ground);
+  for (std::size_t i = 0; i < kWheels; ++i) {
+    const RigidBody& hub = now_.bodies[i];
+    RollOn(before[i], {hub.p_WG_W, hub.q_WG * Eigen::Vector3d::UnitY(), settings_.car.wheel.radius_m}, now_.wheels[i]);
+  }
   const Plane under = GroundPlane({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
-  car_->SetGround(under.point_W, under.normal_W);
+  Eigen::Isometry3d X_WB(chassis().q_WG);
+  X_WB.translation() = p_WB_W();
+  const CollisionSettings outline{.clearance_m = settings_.clearance_m};
+  now_.lowered_m = LoweredBy(was, now_.lowered_m, under, X_WB, BoxOf(settings_.car.dimensions, outline));
+  car_->SetGround(under.point_W - now_.lowered_m * under.normal_W, under.normal_W);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(clamped, dt_s / substeps);
   push_ = {};

@@ -66,6 +66,7 @@ class OdeModel final : public VehicleModel {
     assists::Assists assists;
     double forward_mps2 = 0.0;  // acceleration of the last substep along the car
     double lateral_mps2 = 0.0;  // and across
+    double lowered_m = 0.0;     // of the plane under the body (LoweredBy)
   };
 
   const RigidBody& chassis() const { return now_.bodies[OdeCar::kChassis]; }

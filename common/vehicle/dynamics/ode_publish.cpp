@@ -89,6 +89,7 @@ void OdeModel::Save(base::StateWriter& writer) const {
   writer.Put("assists", now_.assists);
   writer.Put("forward_mps2", now_.forward_mps2);
   writer.Put("lateral_mps2", now_.lateral_mps2);
+  if (now_.lowered_m > 0.0) writer.Put("lowered_m", now_.lowered_m);
   writer.Put("published", state_);
 }
 
@@ -99,6 +100,8 @@ void OdeModel::Restore(base::StateReader& reader) {
   reader.Get("assists", now_.assists);
   reader.Get("forward_mps2", now_.forward_mps2);
   reader.Get("lateral_mps2", now_.lateral_mps2);
+  now_.lowered_m = 0.0;
+  if (reader.Has("lowered_m")) reader.Get("lowered_m", now_.lowered_m);
   reader.Get("published", state_);
 }
 

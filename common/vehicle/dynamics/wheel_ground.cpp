@@ -11,6 +11,10 @@ void WheelGround::Save(base::StateWriter& writer) const {
   writer.Put("friction", friction);
   writer.Put("surface", surface);
   writer.Put("inside", inside);
+  if (!edge) return;
+  writer.Put("edge_W", std::span<const double>(edge->point_W.data(), 3));
+  writer.Put("edge_ahead_W", std::span<const double>(edge->ahead_W.data(), 3));
+  writer.Put("edge_rises", edge->rises);
 }
 
 void WheelGround::Restore(base::StateReader& reader) {
@@ -19,12 +23,19 @@ void WheelGround::Restore(base::StateReader& reader) {
   reader.Get("friction", friction);
   reader.Get("surface", surface);
   reader.Get("inside", inside);
+  edge.reset();
+  if (!reader.Has("edge_W")) return;
+  edge.emplace();
+  reader.Get("edge_W", std::span<double>(edge->point_W.data(), 3));
+  reader.Get("edge_ahead_W", std::span<double>(edge->ahead_W.data(), 3));
+  reader.Get("edge_rises", edge->rises);
 }
 
 void WheelGround::Update(const ground::GroundQuery& query, const ground::GroundPoint& point) {
   inside = point.inside;
   surface = point.surface;
   if (!inside) return;
+  edge.reset();
   plane_W = {query.x_m, query.y_m, point.z_m};
   normal_W = point.normal_W;
   friction = point.friction;

@@ -6,12 +6,20 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "common/core/base/state.hpp"
 #include "common/core/ground/ground.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
 namespace rodeira::dynamics {
+
+/// An edge of the ground that a wheel turns about: a level line.
+struct GroundEdge {
+  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();   ///< a point of the line, in m
+  Eigen::Vector3d ahead_W = Eigen::Vector3d::UnitX();  ///< level, of unit length, across the line: the wheel's way
+  bool rises = false;                                  ///< true: the wheel climbs onto it; false: rolls down from it
+};
 
 /// The ground under a wheel, as the last query answered it: a plane in the world frame W.
 struct WheelGround {
@@ -20,6 +28,8 @@ struct WheelGround {
   double friction = 0.0;                                ///< coefficient of the dry surface, 1: dry asphalt
   ground::Surface surface = ground::Surface::kOutside;  ///< material
   bool inside = false;                                  ///< false: the wheel is outside of the world
+  /// What the wheel turns about while it rolls from one plane onto another (RollOn); the plane touches it there.
+  std::optional<GroundEdge> edge = std::nullopt;
 
   /// Takes the answer to the query below the hub. Outside of the world plane and friction stay as they are.
   /// @param query the query
