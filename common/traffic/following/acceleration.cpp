@@ -20,6 +20,8 @@ constexpr double kSeekingShare = 0.75,
                      1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
 constexpr double kTightSeeking_mps = 3.5;  // the same where only slow vehicles change lanes
+constexpr double kRoomToGoRound_m = 9.5;   // between it and what stands before it …
+constexpr double kRoomBraking_mps2 = 3.0;  // … which it brakes so hard to keep
 constexpr double kLaneEndShare = 1.25;     // of comfortable braking, before the end of the lane
 
 }  // namespace
@@ -83,6 +85,10 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
   if (const auto end = in_.lanes_beside.EndAhead(id))
     wanted = std::min(wanted, in_.following.StopAt(id, end->waits_m, kLaneEndShare));
+  if (const auto stands = in_.lanes_beside.GoesRound_m(id); stands && agent.change.side == 0) {
+    const double soonest = FrontOf(agent, traits) + v * v / (2.0 * kRoomBraking_mps2);
+    wanted = std::min(wanted, in_.following.StopAt(id, std::max(*stands - kRoomToGoRound_m, soonest)));
+  }
   if (const auto waits = in_.lanes_beside.WaitsBeside_m(id))
     wanted = std::min(wanted, in_.following.StopAt(id, *waits, kLaneEndShare));
   if (in_.bars[id] < kNoBarrier_m) wanted = std::min(wanted, in_.following.StopAt(id, in_.bars[id], kYieldingShare));

@@ -40,9 +40,10 @@ double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
       if (other.id == id || other.middle_m() <= there) continue;
       const double gap = other.rear_m - there - 0.5 * traits.length_m;
       if (gap >= out_.ahead[id].gap_m) break;
-      if (is_queued(other.id)) continue;
+      if (in_.lanes_beside.IsShutIn(other.id) || (is_queued(other.id) && !GoesRound(other.id))) continue;
       if (out_.agents[other.id].seeks && gap > traits.idm.standing_gap_m &&
-          (in_.lanes_beside.FewerChanges(other.id, here.track) > 0 || in_.lanes_beside.EndAhead(other.id))) {
+          (in_.lanes_beside.FewerChanges(other.id, here.track) > 0 || in_.lanes_beside.EndAhead(other.id) ||
+           GoesRound(other.id))) {
         wanted = std::min(wanted, std::max(-kCourtesy_mps2, driver::IdmAcceleration(traits.idm, agent.speed_mps,
                                                                                     limit_mps, gap - kCourtesyRoom_m,
                                                                                     out_.agents[other.id].speed_mps)));

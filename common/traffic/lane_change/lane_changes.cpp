@@ -72,7 +72,8 @@ void LaneChanges::ChangeLanes(std::int64_t step_ns) {
       auto way = Weigh(id, side);
       if (way && way->surplus_mps2 > 0.0 && (!best || way->surplus_mps2 > best->surplus_mps2)) best = std::move(way);
     }
-    agent.seeks = !best && (in_.lanes_beside.RouteEnds(id) - agent.o_m < kSeeks_m || in_.lanes_beside.EndAhead(id));
+    agent.seeks = !best && (in_.lanes_beside.RouteEnds(id) - agent.o_m < kSeeks_m || in_.lanes_beside.EndAhead(id) ||
+                            GoesRound(id));
     if (best) BeginChange(id, std::move(*best));
   }
 }

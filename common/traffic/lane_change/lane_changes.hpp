@@ -49,6 +49,7 @@ class LaneChanges {
 
   bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const;
   bool NeedsSlowChange(std::uint32_t id) const;
+  bool GoesRound(std::uint32_t id) const;
   bool MayLeaveLane(std::uint32_t id) const;
   // Changes to the lane beside.
   void ChangeLanes(std::int64_t step_ns);

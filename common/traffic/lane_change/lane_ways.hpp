@@ -32,6 +32,9 @@ class LaneWays {
     std::span<const AgentTraits> traits;
     const std::optional<Pedestrians>& people;
     std::span<const RouteSegments> stretches;
+    std::span<const std::vector<Block>> blocks;
+    const bool& any_block;
+    std::span<const Leader> ahead;
     const SpeedLimits& limits;
   };
   explicit LaneWays(const Reads& reads) : in_(reads) {}
@@ -46,12 +49,25 @@ class LaneWays {
   std::optional<EndingLane> EndAhead(std::uint32_t id) const;
   // Odometer.
   std::optional<double> WaitsBeside_m(std::uint32_t id) const;
+  // Odometer of the rear of what stands before it on its lane, if that is kept by a vehicle that is no agent, or was
+  // hit, and stands there or comes towards it, and it may go round by a lane beside.
+  std::optional<double> GoesRound_m(std::uint32_t id) const;
+  // Whether there is too little room before it to go round.
+  bool IsShutIn(std::uint32_t id) const;
+  // Room to the first vehicle that is no agent, or was hit, and stands on its way or comes towards it; far where there
+  // is none in sight.
+  double Blocked_m(std::uint32_t id) const;
+  // Whether such a vehicle on the lane that it leaves, at most so far ahead, would stop the lane change that it is in.
+  bool IsKept(std::uint32_t id, const RouteSegments& left, double to_m) const;
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
   double RouteEnds(std::uint32_t id) const;
   int FewerChanges(std::uint32_t id, std::uint32_t track) const;
   double LaneEnds(std::uint32_t id) const;
 
  private:
+  template <typename Visit>
+  void EachBody(std::uint32_t id, const RouteSegments& way, double to_m, const Visit& visit) const;
+
   Reads in_;
 };
 

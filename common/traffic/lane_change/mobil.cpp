@@ -23,8 +23,10 @@ constexpr double kAnticipation_s = 2.0, kAnticipatedBraking_mps2 = 1.2;
 constexpr double kAlongsideTolerance_m = 1e-6;  // a vehicle with a middle no farther ahead or behind is alongside
 constexpr double kSooner_m = 30.0;              // a lane that ends so much sooner is no choice …
 constexpr double kEnding_mps2 = 1.0;  // … and one that ends, or parts from the route, is left for so much …
-constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;             // … growing to so much over the last part
-constexpr double kForcedSafe_mps2 = 3.0, kForcedFrom_m = 150.0;  // braking asked of others before a blunt end, growing
+constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much over the last part
+constexpr double kFartherOn_m = 15.0;                 // so much farther on the lane beside may be blocked, too
+constexpr double kRoundLength_m = kMinTightChangeLength_m + 0.6;  // of a slow change round a standing vehicle
+constexpr double kForcedSafe_mps2 = 3.0, kForcedFrom_m = 150.0;   // asked of others before an end or a standing body
 
 }  // namespace
 
@@ -35,9 +37,12 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   const lanes::Track& track = in_.map.graph[agent.path.back().track];
   const auto beside = side > 0 ? track.left : track.right;
   const int fewer = beside ? in_.lanes_beside.FewerChanges(id, *beside) : 0;
-  const bool tight = fewer > 0 && in_.lanes_beside.ChangesSlowly(id);
-  const double tight_m = std::min(agent.path.back().zero_m + track.length_m(),
-                                  in_.passages[id].any ? in_.passages[id].line_m : kNoBarrier_m);
+  const auto round = in_.lanes_beside.GoesRound_m(id);
+  const bool goes_round = round.has_value();
+  const bool tight = goes_round || (fewer > 0 && in_.lanes_beside.ChangesSlowly(id));
+  double tight_m = std::min(agent.path.back().zero_m + track.length_m(),
+                            in_.passages[id].any ? in_.passages[id].line_m : kNoBarrier_m);
+  if (goes_round) tight_m = std::min(tight_m, FrontOf(agent, in_.traits[id]) + kRoundLength_m);
   const auto piece =
       in_.lanes_beside.PieceBeside(id, side, end ? end->ends_m : kNoBarrier_m, tight ? tight_m : kNoBarrier_m);
   if (!piece) return std::nullopt;
@@ -64,25 +69,29 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   const double v = agent.speed_mps,
                stops = piece->begin_m + std::min(out_.ways.SightOf(agent),
                                                  kAnticipation_s * v + v * v / (2.0 * kAnticipatedBraking_mps2));
-  const double ends = in_.lanes_beside.LaneEnds(id);
+  const double ends = in_.lanes_beside.LaneEnds(id), blocked = in_.lanes_beside.Blocked_m(id);
   const bool leaves_end = end && own_ends < ends - kSooner_m;
   const bool plain = leaves_end ? in_.lanes_beside.IsPlain(id, rear, to) && in_.lanes_beside.IsFree(id, to, stops)
                                 : in_.lanes_beside.IsPlain(id, rear, std::max(to, stops), tightest);
   const Leader ahead = plain ? in_.neighbours.FindLeader(id) : Leader();
   const LaneChange none =
       std::exchange(agent.change, {side, piece->blend_from_m, piece->blend_from_m + piece->blend_m});
-  const bool is_kept = own_ahead.any && std::fabs(own_ahead.speed_mps) < kStandingLeader_mps &&
+  const bool is_kept = own_ahead.any &&
+                       std::fabs(own_ahead.speed_mps) < (goes_round ? kSlowest_mps : kStandingLeader_mps) &&
                        !PassesBeside(in_.map.graph, agent, traits, own_ahead);
+  const bool is_stopped = in_.lanes_beside.IsKept(id, own, to - FrontOf(agent, traits));
   agent.change = none;
   agent.path.pop_back();
   LaneChangeOption way{*piece, side, 0.0, std::exchange(out_.stretches[id], std::move(own))};
-  if (!plain || is_kept || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m))))
+  if (!plain || is_kept || is_stopped || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m))))
     return std::nullopt;
   const Follower old_follower = in_.neighbours.FindFollower(
       id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Follower follower =
       in_.neighbours.FindFollower(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
   if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
+  if (!told && blocked < (goes_round ? *round - FrontOf(agent, traits) + kFartherOn_m : kNoBarrier_m))
+    return std::nullopt;
   if (follower.any && follower.gap_m < in_.settings.idm.standing_gap_m) return std::nullopt;
   const double at = piece->begin_m - piece->zero_m;
   driver::MobilCase mobil;
@@ -98,16 +107,18 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   mobil.old_follower_then_mps2 = in_.following.FollowerDoes(
       old_follower, own_ahead.any, old_follower.gap_m + traits.length_m + own_ahead.gap_m, own_ahead.speed_mps);
   driver::MobilSettings settings = in_.settings.lane_changes;
-  if (leaves_end) {
-    const double near = std::clamp(1.0 - (end->waits_m - FrontOf(agent, traits)) / kForcedFrom_m, 0.0, 1.0);
+  if (leaves_end || goes_round) {
+    const double room = (leaves_end ? end->waits_m : *round - kRoundLength_m) - FrontOf(agent, traits);
+    const double near = std::clamp(1.0 - room / kForcedFrom_m, 0.0, 1.0);
     settings.safe_mps2 = std::max(settings.safe_mps2, std::lerp(settings.safe_mps2, kForcedSafe_mps2, near));
   }
   if (!driver::MobilIsSafe(settings, mobil)) return std::nullopt;
   const bool keep = (side < 0) != in_.map.graph[piece->track].left_hand;
   const bool must = own_ends < ends - kSooner_m || (fewer > 0 && own_ends < kNoBarrier_m);
-  way.surplus_mps2 =
-      driver::MobilSurplus(in_.settings.lane_changes, mobil, keep) +
-      (must ? std::lerp(kAtEnd_mps2, kEnding_mps2, std::clamp((own_ends - to) / kFrom_m, 0.0, 1.0)) : 0.0);
+  way.surplus_mps2 = driver::MobilSurplus(in_.settings.lane_changes, mobil, keep) +
+                     (goes_round ? kAtEnd_mps2
+                      : must     ? std::lerp(kAtEnd_mps2, kEnding_mps2, std::clamp((own_ends - to) / kFrom_m, 0.0, 1.0))
+                                 : 0.0);
   return way;
 }
 
@@ -120,9 +131,12 @@ bool LaneChanges::NeedsSlowChange(std::uint32_t id) const {
   return in_.lanes_beside.ChangesSlowly(id) && in_.lanes_beside.RouteEnds(id) < kNoBarrier_m;
 }
 
+// Whether it is to go round a vehicle that stands before it.
+bool LaneChanges::GoesRound(std::uint32_t id) const { return in_.lanes_beside.GoesRound_m(id).has_value(); }
+
 bool LaneChanges::MayLeaveLane(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
-  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id) || NeedsSlowChange(id)) &&
+  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id) || NeedsSlowChange(id) || GoesRound(id)) &&
          in_.map.graph[agent.path.back().track].junction < 0 && agent.grants.empty() && !in_.passages[id].due;
 }
 

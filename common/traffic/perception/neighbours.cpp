@@ -123,9 +123,9 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m),
                    zero = at - in_.map.graph.Across(stretch.track, at - stretch.zero_m, *old);
-      const auto passes = [&](const Leader& other) {
-        return std::fabs(other.speed_mps) < kStandingLeader_mps &&
-               PassesBeside(in_.map.graph, agent, in_.traits[id], other);
+      const auto passes = [&](Leader other) {
+        other.gap_m = MeetsAfter_m(other.gap_m, agent.speed_mps, other.speed_mps);
+        return other.speed_mps < kStandingLeader_mps && PassesBeside(in_.map.graph, agent, in_.traits[id], other);
       };
       for (const Occupant& other : in_.occupants.Beyond(*old, agent.o_m - zero)) {
         const double gap = zero + other.rear_m - front;

@@ -15,6 +15,11 @@ inline constexpr double kStandingLeader_mps = 0.5;  // a slower leader stands
 inline constexpr double kPassingBy_m = 0.3;         // between the sides of two vehicles
 inline constexpr double kPassingStep_m = 1.0;       // between two places that are checked
 
+// Of a gap, the part that a vehicle drives until it meets what comes towards it; all of it where the other one stands.
+inline double MeetsAfter_m(double gap_m, double speed_mps, double other_mps) {
+  return other_mps > -kStandingLeader_mps ? gap_m : gap_m * speed_mps / (speed_mps - other_mps);
+}
+
 // Whether a vehicle that changes lanes passes beside a leader that stands on the lane that it leaves. The leader's gap
 // is from the front bumper along the path; its sides are from the middle of that lane.
 inline bool PassesBeside(const lanes::Graph& graph, const Agent& agent, const AgentTraits& traits,

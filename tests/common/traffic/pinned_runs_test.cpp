@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
                       PinnedRun{"n222.yaml", 60, 16, 1, kPlanar, 0.05, 270.0, With::kUnequal, "cc6bf426162fa14c"},
                       PinnedRun{"n222.yaml", 40, 17, 1, kPlanar, 0.02, 120.0, With::kCar, "ccc921b1b981c19f"},
                       PinnedRun{"motorway.yaml", 100, 18, 1, kPlanar, 0.05, 180.0, With::kUnequal, "c18509a8532fffff"},
-                      PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "a3221e43d5371bab"},
+                      PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "29397067762341ff"},
                       PinnedRun{"town", 40, 20, 1, kPlanar, 0.02, 120.0, With::kCommands, "234a7700468def9e"},
                       PinnedRun{"ring", 20, 21, 1, kPlanar, 0.1, 270.0, With::kRestore, "90880442613be2b6"}));
 
