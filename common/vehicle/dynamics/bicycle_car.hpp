@@ -59,7 +59,7 @@ struct BicycleFindings {
   double drag_N = 0.0;
 };
 
-// All of one car that changes: a value of some 900 bytes, without a reference to anything, so that many of them are an
+// All of one car that changes: a value of some 1600 bytes, without a reference to anything, so that many of them are an
 // array (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/explanation/vehicle.md).
 struct BicycleCar {
   struct Wheel : WheelGround {

@@ -8,6 +8,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/edge_contact.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
+#include "common/vehicle/dynamics/parts_file.hpp"
 #include "common/vehicle/dynamics/tyre_pressure.hpp"
 
 namespace rodeira::dynamics {
@@ -23,6 +24,7 @@ TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
 }  // namespace
 
 base::Status MultibodyModel::Build() {
+  for (TyreSettings& tyre : tyres_) LimitDamping(settings_.wheel, settings_.longest_substep_s, tyre);
   multibody::Drawing drawing = settings_.mechanism;
   const multibody::Frame& chassis = drawing.bodies[static_cast<std::size_t>(settings_.chassis)].frame;
   origin_ = chassis.PointAt(Eigen::Vector3d::Zero());

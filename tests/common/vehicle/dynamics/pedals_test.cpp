@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/vehicle/dynamics/bicycle_model.hpp"
+#include "common/vehicle/dynamics/multibody_model.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 #include "tests/common/vehicle/dynamics/every_model.hpp"
@@ -117,16 +118,21 @@ TEST(PedalsOnAHill, AHeldPedalEntersNoGearTwice) {
 
 // Rolling out from 0.6 m/s with wheels as light as the file allows: it comes to rest, and no force alternates.
 TEST(LightWheels, RollToRestAsHeavyOnesDo) {
-  const auto bicycle = MakeModel(kBicycle), ode = MakeModel(kOde);
+  const auto bicycle = MakeModel(kBicycle), ode = MakeModel(kOde), multibody = MakeModel(kMultibody);
   for (const double inertia_kgm2 : {0.05, 0.08, 0.12, 0.15}) {
     BicycleSettings light = static_cast<const BicycleModel&>(*bicycle).settings();
     OdeSettings light_ode = static_cast<const OdeModel&>(*ode).settings();
+    MultibodySettings light_mechanism = static_cast<const MultibodyModel&>(*multibody).settings();
     light.wheel.inertia_kgm2 = light_ode.car.wheel.inertia_kgm2 = inertia_kgm2;
+    light_mechanism.wheel.inertia_kgm2 = inertia_kgm2;
     for (TyreSettings& tyre : light_ode.car.tyre) LimitDamping(light_ode.car.wheel, light_ode.longest_substep_s, tyre);
     BicycleModel first(light);
     OdeModel second(light_ode);
+    MultibodyModel third(light_mechanism);
     ASSERT_TRUE(second.Build().ok());
-    for (VehicleModel* car : {static_cast<VehicleModel*>(&first), static_cast<VehicleModel*>(&second)}) {
+    ASSERT_TRUE(third.Build().ok());
+    for (VehicleModel* car : {static_cast<VehicleModel*>(&first), static_cast<VehicleModel*>(&second),
+                              static_cast<VehicleModel*>(&third)}) {
       PlaneGround ground;
       ASSERT_TRUE(car->Initialise({.speed_mps = 0.6}, ground).ok());
       double before_N = car->state().wheels[kRearLeft].longitudinal_N, most_N = 0.0;
