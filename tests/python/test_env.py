@@ -21,6 +21,7 @@ from rodeira.nodes import Ragged, finished
 ROOT = pathlib.Path(__file__).parents[2]
 PROGRAM = os.environ.get("RODEIRA", "")
 DEMO = ROOT / "launch/demo.yaml"  # N-222 with 20 cars, a node each millisecond
+OFF_THE_ROAD = [0.05, 1, 0]       # in the demo: to a house beside it
 LAUNCH = """rodeira: launch/1
 world: {root}/configs/worlds/plane.yaml
 seed: 1
@@ -96,11 +97,11 @@ class Episodes(EnvTest):
         for _ in range(2):
             env.reset()
             while not env.now["collisions"]["contacts"]:
-                env.step([0, 1, 0])
+                env.step(OFF_THE_ROAD)
             digests.append(drive(env, actions(1)))
         fresh.reset()
         while not fresh.now["collisions"]["contacts"]:
-            fresh.step([0, 1, 0])
+            fresh.step(OFF_THE_ROAD)
         self.assertEqual([*digests, drive(fresh, actions(1))], digests[:1] * 3)
 
     def test_a_scenario_with_rain_begins_again_too(self):
@@ -212,8 +213,8 @@ class Episodes(EnvTest):
 
         env = self.env()
         env.reset()
-        while not env.now["collisions"]["contacts"]:  # straight on, off the road
-            env.step([0, 1, 0])
+        while not env.now["collisions"]["contacts"]:
+            env.step(OFF_THE_ROAD)
         self.assertTrue(env.now["collisions"]["contacts"][0]["partner_name"].startswith("n222-object"))
         layouts = Layouts()
         for name in ("vehicle_state", "collisions", "traffic_state", "traffic_details", "signals_state"):

@@ -151,7 +151,7 @@ disp(state.state_digest(end));
                                 (["--mat", self.folder / "a.mat", "--long"], "excludes"),
                                 (["--csv", self.folder / "a", "--subject", "ego"], "--derived"),
                                 (["--csv", self.folder / "a", "--derived", "--subject", "eg"], "did you mean 'ego'"),
-                                ([], "--csv DIR or --mat FILE.mat")):
+                                ([], "--fcd FILE.xml was expected")):
             done = call("export", *words, self.path)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(sentence, done.stderr)

@@ -32,8 +32,10 @@ std::uint32_t Paths::Follow(std::uint32_t id) {
 bool Paths::AtTheEnd(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
   const Piece& last = agent.path.back();
+  const double front_m = agent.o_m + 0.5 * in_.traits[id].length_m - last.zero_m;
+  if (front_m >= in_.map.lane_ends.NarrowsFrom_m(last.track)) return true;
   return !GoesOn(in_.map.graph, in_.below[id], last.track) &&
-         agent.o_m + 0.5 * in_.traits[id].length_m >= last.zero_m + LengthOf(in_.map.graph, in_.below[id], last.track);
+         front_m >= LengthOf(in_.map.graph, in_.below[id], last.track);
 }
 
 }  // namespace rodeira::traffic

@@ -9,7 +9,7 @@
 
 namespace rodeira::traffic {
 
-// Where a lane ends while the lane beside it goes on, as an acceleration lane without a taper.
+// Where lanes end: while the lane beside goes on, as an acceleration lane without a taper, or by narrowing to nothing.
 class LaneEnds {
  public:
   // Both must outlive the call alone.
@@ -20,10 +20,15 @@ class LaneEnds {
   bool IsBlunt(std::uint32_t track) const { return blunt_[track]; }
   // Distance along the track, in metres, up to which a lane change is possible; below 0 where none is.
   double ChangeEnds_m(std::uint32_t track) const { return change_ends_m_[track]; }
+  // Distance along the track, in metres, from which a lane that leads nowhere is narrower than 2 m, up to its end or to
+  // a place where nothing is left of it: a vehicle's way ends there. 0 where all of the track is; infinite where the
+  // track does not end so. A blunt lane does not: its vehicles change before.
+  double NarrowsFrom_m(std::uint32_t track) const { return narrows_from_m_[track]; }
 
  private:
   std::vector<bool> blunt_;  // by track
   std::vector<double> change_ends_m_;
+  std::vector<double> narrows_from_m_;
 };
 
 }  // namespace rodeira::traffic

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/traffic/check/joint_gaps.hpp"
+#include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/results/study.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
@@ -120,6 +121,30 @@ TEST(Joints, TrafficEntersALaneThatOpensWhereItIsWideEnough) {
   EXPECT_EQ(driven.wheels_off, 0);
   EXPECT_EQ(driven.off_lane, 0);
   EXPECT_EQ(driven.collisions, 0);
+}
+
+// A lane that narrows to nothing over 40 m and two sections, and leads nowhere: ways end where it is 2 m wide.
+TEST(Joints, TrafficLeavesALaneThatNarrowsToNothingWhereItIsWideEnough) {
+  opendrive::RoadText road;
+  road.left = "";
+  road.length = 110.0;
+  road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"110\"><line/></geometry>";
+  road.right =
+      "<lane id=\"-1\" type=\"driving\"><link><successor id=\"-1\"/></link>"
+      "<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/>"
+      "<width sOffset=\"70\" a=\"4\" b=\"-0.1\" c=\"0\" d=\"0\"/></lane>"
+      "</right></laneSection><laneSection s=\"100\"><center><lane id=\"0\" type=\"none\"/></center><right>"
+      "<lane id=\"-1\" type=\"driving\"><link><predecessor id=\"-1\"/></link>"
+      "<width sOffset=\"0\" a=\"1\" b=\"-0.1\" c=\"0\" d=\"0\"/></lane>";
+  const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+  const TrafficMap map(network, TrafficSettings());
+  ASSERT_EQ(map.graph.tracks().size(), 2u);
+  EXPECT_NEAR(map.lane_ends.NarrowsFrom_m(0), 90.0, 1.5);  // to the next node of the lane's middle
+  EXPECT_EQ(map.lane_ends.NarrowsFrom_m(1), 0.0);
+  const StudyResult driven = Drive(network);
+  EXPECT_GT(driven.arrivals, 5);
+  EXPECT_EQ(driven.wheels_off, 0);
+  EXPECT_EQ(driven.off_lane, 0);
 }
 
 }  // namespace
