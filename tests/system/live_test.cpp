@@ -170,7 +170,7 @@ TEST_F(Live, AMissingWheelIsOneSentenceAndStatusTwo) {
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(
       ended.out.find(
-          "configs/drivers/wheel.yaml:7: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
+          "configs/drivers/wheel.yaml:8: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
       std::string::npos)
       << ended.out;
 }
