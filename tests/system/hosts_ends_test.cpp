@@ -69,7 +69,7 @@ class HostsEnds : public testing::TestWithParam<std::string> {
     launch_ =
         folder_
             .Write("launch.yaml",
-                   "rodeira: launch/1\nduration_s: 4\nlimits: {start_s: 6}\nnodes: {a: {kind: empty, host: left}, "
+                   "rodeira: launch/1\nduration_s: 8\nlimits: {start_s: 6}\nnodes: {a: {kind: empty, host: left}, "
                    "b: {kind: empty, host: right}, c: {kind: empty, host: right}, d: {kind: empty}, recorder: "
                    "{kind: recorder, host: left}}\n")
             .string();

@@ -261,7 +261,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
 
 TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
   Make(2, kNoMulticast, "{kind: peers}",
-       "rodeira: launch/1\nrecovery: restart\nduration_s: 4\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, "
+       "rodeira: launch/1\nrecovery: restart\nduration_s: 8\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, "
        "host: right}, "
        "c: {kind: empty, host: right}, d: {kind: empty}, recorder: {kind: recorder, host: left}}\n");
   if (!rig_->problem().empty()) return;
