@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/core/base/append_format.hpp"
+#include "common/core/base/xml_text.hpp"
 #include "common/core/plot/table.hpp"
 
 namespace rodeira::plot {
@@ -41,19 +42,6 @@ double TickOf(double length) {
   return tick;
 }
 
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 void AddLine(const Table& table, std::size_t column, int top, const Extent& extent, std::string& svg) {
   const double from = table.At(0, 0), to = table.At(table.rows() - 1, 0);
   const auto x = [&](double t) { return kLeft + (to > from ? (t - from) / (to - from) : 0.0) * kWidth; };
@@ -82,7 +70,7 @@ std::string ToSvg(const Table& table, const std::string& title) {
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' font-family='sans-serif' "
       "font-size='11'>\n"
       "<rect width='{0}' height='{1}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}</text>\n",
-      kLeft + kWidth + 20, height, kLeft, Escaped(title));
+      kLeft + kWidth + 20, height, kLeft, base::XmlText(title));
   if (table.rows() == 0) return svg + "</svg>\n";
   const double from = table.At(0, 0), to = table.At(table.rows() - 1, 0);
   for (std::size_t k = 0; k < diagrams; ++k) {
@@ -90,7 +78,8 @@ std::string ToSvg(const Table& table, const std::string& title) {
     const Extent extent = ExtentOf(table, k + 1);
     svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#bbb'/>\n", kLeft, top, kWidth,
                        kHeight);
-    svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft, top - 4, Escaped(table.names[k + 1]));
+    svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft, top - 4,
+                       base::XmlText(table.names[k + 1]));
     svg += fmt::format(
         "<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' "
         "text-anchor='end'>{4:.5g}</text>\n",
@@ -106,7 +95,7 @@ std::string ToSvg(const Table& table, const std::string& title) {
     AddLine(table, k + 1, top, extent, svg);
   }
   svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>{}</text>\n</svg>\n", kLeft - 6, height - 20 + 8,
-                     Escaped(table.names[0]));
+                     base::XmlText(table.names[0]));
   return svg;
 }
 
