@@ -58,9 +58,12 @@ void CarArray::QueryGround(ground::Ground& ground) {
   std::size_t answer = 0;
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     if (!present(i)) continue;
-    // Without RollOn: between two queries such a car rolls up to 0.3 m, and over that way the planes of a bent road
-    // differ as at an edge.
-    for (std::size_t k = 0; k < kWheels; ++k, ++answer) cars_[i].wheels[k].Update(queries_[answer], points_[answer]);
+    std::array<WheelGround, kWheels> before;
+    for (std::size_t k = 0; k < kWheels; ++k, ++answer) {
+      before[k] = cars_[i].wheels[k];
+      cars_[i].wheels[k].Update(queries_[answer], points_[answer]);
+    }
+    cars_[i].RollOn(chassis(i), before);
   }
 }
 

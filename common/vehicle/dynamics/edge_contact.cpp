@@ -12,6 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kNegligible_m = 2e-4;  // a tyre bears less than its rolling resistance over 0.1 m with it
+constexpr double kTightestBend_m = 10;  // radius of a road's crest or dip: planes along it differ by way^2 / (2 radius)
 constexpr double kResting_m = 1e-9;     // a hub that moves by less goes nowhere
 constexpr double kNearest = 0.2;        // of hub and edge, share of the radius: the rim bears long before
 
@@ -102,11 +103,11 @@ void RollOn(const WheelGround& before, const WheelDisc& disc, WheelGround& wheel
   WheelGround old = before;
   if (before.edge) StandOn(*before.edge, disc, old);
   const double pressed_m = std::max(0.0, Deflection(disc, old));
-  if (reaches_m <= pressed_m + kNegligible_m) return;
-  if (before.edge && IsValid(*before.edge, disc, wheel)) return StandOn(*before.edge, disc, wheel);
   Vector3d ahead = before.edge ? before.edge->ahead_W : Vector3d(wheel.plane_W - before.plane_W);
   ahead.z() = 0.0;
-  const double moved_m = ahead.norm();
+  const double moved_m = ahead.norm(), bent_m = before.edge ? 0.0 : moved_m * moved_m / (2.0 * kTightestBend_m);
+  if (reaches_m <= pressed_m + std::max(kNegligible_m, bent_m)) return;
+  if (before.edge && IsValid(*before.edge, disc, wheel)) return StandOn(*before.edge, disc, wheel);
   if (moved_m < kResting_m) return;
   ahead /= moved_m;
   const bool falls = HeightAt(wheel, disc.hub_W) < HeightAt(old, disc.hub_W);

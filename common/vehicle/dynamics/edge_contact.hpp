@@ -26,7 +26,8 @@ struct WheelDisc {
 ///   nothing.
 /// - Where the ground rises, the edge lies ahead on the new plane, so far that the tyre is pressed in as before. The
 ///   motion of the hub over it does the work that presses the tyre in.
-/// Otherwise the plane is the ground's, to the bit.
+/// Otherwise the plane is the ground's, to the bit; so it is where the planes differ by no more than along a crest or
+/// dip of 10 m radius, which at steps of 10 ms and 30 m/s is 4.5 mm.
 /// @param before the ground under the wheel before the query
 /// @param disc the wheel now
 /// @param wheel the ground's answer now; receives the edge and the plane that touches the wheel there
