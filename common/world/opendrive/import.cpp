@@ -130,6 +130,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   const auto on_foot = PathsOnFoot(readings, junctions);
   CutAtMiddles(readings, on_foot, findings);
   TurnLights(spec.controllers, readings, findings);
+  RaiseLights(readings, findings);
   for (const RoadReading& road : readings) {
     CheckPlan(road, tolerance, findings);
     CheckBorders(road, tolerance, findings);

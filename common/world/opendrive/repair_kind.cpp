@@ -46,6 +46,7 @@ constexpr std::array kRepairKinds = {
     RepairKindName{RepairKind::kLengthSet, "road.length_set"},
     RepairKindName{RepairKind::kLinksByLanes, "road.links_by_lanes"},
     RepairKindName{RepairKind::kSectionDropped, "section.dropped"},
+    RepairKindName{RepairKind::kLightRaised, "signal.light_raised"},
     RepairKindName{RepairKind::kLightTurned, "signal.light_turned"},
     RepairKindName{RepairKind::kStepKept, "surface.step_kept"},
     RepairKindName{RepairKind::kSurfaceCut, "surface.cut"},

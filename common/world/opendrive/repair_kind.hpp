@@ -31,6 +31,7 @@ enum class RepairKind {
   kLaneEnded,
   kLaneLinkDropped,
   kLengthSet,
+  kLightRaised,
   kLightTurned,
   kLightsDark,
   kLinkDropped,
