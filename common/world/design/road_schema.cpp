@@ -27,15 +27,15 @@ using config::WithDefaultNote;
 using config::WithSample;
 using config::WordKey;
 
-constexpr Range kLength_m{0.01, 100'000.0}, kRadius_m{-1e7, 1e7};
+constexpr Range kStatedLength_m{0.01, 100'000.0}, kRadius_m{-1e7, 1e7};
 
 Key LengthKey(const char* instead) {
-  return ComputedNumberKey("length_m", kLength_m, std::string("or ") + instead, "Length.");
+  return ComputedNumberKey("length_m", kStatedLength_m, std::string("or ") + instead, "Length.");
 }
 
 const std::vector<Key>& AxisKeys() {
   static const std::vector<Key> keys{
-      MappingKey("line", {RequiredNumberKey("length_m", kLength_m, "Length.")}, "Straight line."),
+      MappingKey("line", {RequiredNumberKey("length_m", kStatedLength_m, "Length.")}, "Straight line."),
       MappingKey(
           "arc",
           {WithSample("100", RequiredNumberKey("radius_m", kRadius_m, "Radius, positive to the left; 5 m or more.")),

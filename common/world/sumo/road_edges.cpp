@@ -22,7 +22,7 @@ int LinkedLane(const pugi::xml_node& lane, const char* end) {
 }
 
 // What a lane over a junction connects: the edges, and its lanes in OpenDRIVE's numbers.
-using Way = std::tuple<std::string, std::string, int, int>;
+using ConnectionKey = std::tuple<std::string, std::string, int, int>;
 
 }  // namespace
 
@@ -76,19 +76,20 @@ RoadEdges FindEdges(const Net& net, const pugi::xml_node& drive) {
 
   std::map<std::string, std::string> edge_of;  // by a road's id
   for (const auto& [edge, road] : found.road_of) edge_of.emplace(road.attribute("id").value(), edge);
-  std::map<Way, ConnectingLane> lanes;
+  std::map<ConnectionKey, ConnectingLane> lanes;
   for (const pugi::xml_node& road : connecting) {
     const std::string from = edge_of[LinkedRoad(road, "predecessor")], to = edge_of[LinkedRoad(road, "successor")];
     for (const pugi::xml_node& lane : RightLanes(road)) {
-      lanes.emplace(Way(from, to, LinkedLane(lane, "predecessor"), LinkedLane(lane, "successor")),
+      lanes.emplace(ConnectionKey(from, to, LinkedLane(lane, "predecessor"), LinkedLane(lane, "successor")),
                     ConnectingLane{nullptr, road, lane, lane.attribute("id").as_int()});
     }
   }
   for (const NetConnection& connection : net.connections) {
     const NetEdge *from = net.Edge(connection.from), *to = net.Edge(connection.to);
     if (from == nullptr || to == nullptr) continue;
-    const auto way = lanes.find(Way(connection.from, connection.to, LaneId(connection.from_lane, from->lanes.size()),
-                                    LaneId(connection.to_lane, to->lanes.size())));
+    const auto way =
+        lanes.find(ConnectionKey(connection.from, connection.to, LaneId(connection.from_lane, from->lanes.size()),
+                                 LaneId(connection.to_lane, to->lanes.size())));
     if (way == lanes.end()) continue;
     found.ways.push_back(way->second);
     found.ways.back().connection = &connection;
