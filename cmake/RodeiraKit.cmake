@@ -25,7 +25,9 @@ function(rodeira_add_node name)
     list(APPEND targets ${name}_library)
   endif()
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/${name}_idl)
-  file(MAKE_DIRECTORY ${generated})
+  # A folder of its own for preprocessed texts: fastddsgen writes them to /tmp by name, where another one may truncate
+  # them.
+  file(MAKE_DIRECTORY ${generated}/preprocessed)
   set(RODEIRA_COMPILED "")
   set(paths "")
   set(sources "")
@@ -51,7 +53,8 @@ function(rodeira_add_node name)
   # One command for all files: they may include one another, and fastddsgen writes included types, too.
   add_custom_command(OUTPUT ${sources} ${headers}
     COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/quiet.cmake --
-            ${FASTDDSGEN} -cs -replace -I ${CMAKE_CURRENT_SOURCE_DIR} -I ${RODEIRA_IDL} -d ${generated} ${paths}
+            ${FASTDDSGEN} -cs -replace -t ${generated}/preprocessed -I ${CMAKE_CURRENT_SOURCE_DIR} -I ${RODEIRA_IDL}
+            -d ${generated} ${paths}
     DEPENDS ${paths} COMMENT "fastddsgen for ${name}" VERBATIM)
   set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-w")
   file(CONFIGURE OUTPUT ${generated}/compiled_idl.cpp @ONLY CONTENT [[// Made by rodeira_add_node.

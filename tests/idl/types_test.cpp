@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 
+#include "common/core/base/files.hpp"
 #include "common/data/decode/idl_reader.hpp"
 #include "common/data/decode/type_text.hpp"
 #include "idl/aliases.hpp"
 #include "idl/topic_types.hpp"
 #include "idl/topics.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::idl {
 namespace {
@@ -211,6 +215,28 @@ TEST(Aliases, MatchARecordingWithFormerNames) {
   changed.replace(changed.find("float depth_m"), 13, "double depth_m");
   EXPECT_EQ(RecordedTypeDifference("rodeira/collisions", {changed, former.type}),
             "rodeira::msg::Contact, member 10: found 'double penetration_m', expected 'float penetration_m'");
+}
+
+// fastddsgen writes a preprocessed text to a temporary folder by the name of its IDL file, and reads it back: two of
+// them in one folder read half a text of the other, and make headers without types.
+TEST(Generator, EachHasAFolderOfItsOwnForPreprocessedTexts) {
+  const auto build = base::ReadText(BinaryDir() + "/build.ninja");
+  ASSERT_TRUE(build.ok()) << build.error().Text();
+  std::istringstream lines(build.value());
+  std::multiset<std::string> folders;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("COMMAND = ") == std::string::npos || line.find("/fastddsgen -") == std::string::npos) continue;
+    std::smatch folder;
+    ASSERT_TRUE(std::regex_search(line, folder, std::regex(" -t (\\S+) "))) << line;
+    EXPECT_EQ(folder.str(1).find(BinaryDir()), 0u) << folder.str(1);
+    folders.insert(folder.str(1));
+  }
+  ASSERT_FALSE(folders.empty());
+  for (const std::string& folder : folders) EXPECT_EQ(folders.count(folder), 1u) << folder;
+  for (const IdlText& text : IdlTexts()) {
+    const auto preprocessed = base::ReadText(fmt::format("{}/idl/preprocessed/{}.idl.cc", BinaryDir(), text.subject));
+    EXPECT_TRUE(preprocessed.ok() && !preprocessed.value().empty()) << text.subject;
+  }
 }
 
 }  // namespace
