@@ -162,8 +162,7 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
 int BuildDatabase(const WorldOptions& options, const road::World& world) {
   const Graphics* graphics = RegisteredGraphics();
   if (graphics == nullptr) {
-    fmt::print(stderr, "rodeira: warning: {}: no tiles are written: built without the view (RODEIRA_VIEW=OFF)\n",
-               options.world_file);
+    fmt::print(stderr, "rodeira: warning: {}: no tiles are written: {}\n", options.world_file, WhyNoGraphics());
     return 0;
   }
   nodes::DatabaseOptions database;

@@ -35,6 +35,11 @@ bool CanContinueInGraphics() {
   return !g_graphics && g_arguments != nullptr && ::access(GraphicsProgram().c_str(), X_OK) == 0;
 }
 
+std::string WhyNoGraphics() {
+  return base::IsInstalled() ? "the package rodeira is not installed (apt install rodeira)"
+                             : "built without the view (RODEIRA_VIEW=OFF)";
+}
+
 int ContinueInGraphics(const std::string& command) {
   const std::string program = GraphicsProgram();
   int problem = ENOTSUP;
@@ -43,9 +48,10 @@ int ContinueInGraphics(const std::string& command) {
     ::execv(program.c_str(), g_arguments);
     problem = errno;
   }
-  return base::PrintError(
-      "rodeira",
-      base::OpenError(fmt::format("the program {} is needed (build with RODEIRA_VIEW=ON)", program), problem, command));
+  return base::PrintError("rodeira", base::OpenError(fmt::format("the program {} is needed ({})", program,
+                                                                 base::IsInstalled() ? "apt install rodeira"
+                                                                                     : "build with RODEIRA_VIEW=ON"),
+                                                     problem, command));
 }
 
 bool ReadsDevice(const launch::LaunchNode& node) {

@@ -35,6 +35,8 @@ const Graphics* RegisteredGraphics();
 void KeepArguments(int argc, char** argv);
 // Whether this program is not rodeira-graphics, but that program was built.
 bool CanContinueInGraphics();
+// Why there is no rodeira-graphics, for the end of a sentence.
+std::string WhyNoGraphics();
 // Replaces this program by rodeira-graphics with the same arguments: process, terminal and exit status stay. It returns
 // only where that is not possible: one sentence, which begins with `command`, and status 2.
 int ContinueInGraphics(const std::string& command);

@@ -42,6 +42,25 @@ TEST_F(LoneFrontDoor, CommandsThatDrawNameTheMissingProgram) {
   }
 }
 
+// A world is built without what it looks like, and that is said: what a PC lacks where Rodeira is installed, too.
+TEST_F(LoneFrontDoor, AWorldIsBuiltWithoutTilesAndThatIsSaid) {
+  const auto prefix = folder_.path() / "prefix";
+  std::filesystem::create_directories(prefix / "bin");
+  std::filesystem::create_directories(prefix / "libexec/rodeira");
+  std::filesystem::copy_file(program_, prefix / "bin/rodeira");
+  const auto world = folder_.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n");
+  for (const auto& [program, why] :
+       {std::pair(program_, "built without the view"), std::pair(prefix / "bin/rodeira", "apt install rodeira")}) {
+    const auto out = folder_.path() / "out";
+    const auto ended = RunCommand({program.string(), "world", "build", world.string(), "--out", out.string()});
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("warning: " + world.string() + ": no tiles are written: ")) << program;
+    EXPECT_THAT(ended.out, HasSubstr(why)) << program;
+    EXPECT_TRUE(std::filesystem::exists(out / "w.yaml"));
+    EXPECT_FALSE(std::filesystem::exists(out / "world.osgb"));
+  }
+}
+
 TEST_F(LoneFrontDoor, TheDoctorLooksForNoJoysticks) {
   const auto ended = RunCommand({program_.string(), "doctor", "--domain", "228"});
   EXPECT_THAT(ended.out, HasSubstr("ok       joysticks          not looked for")) << ended.out;
