@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kNoAcceleration = "too few samples for the filter, or no cut-off below half the sample rate";
 
 UsedOptions AccelerationUsed(const AccelerationOptions& options, bool window) {
-  UsedOptions used = Used({{"cutoff_hz", options.cutoff_hz}, {"padding_samples", static_cast<int>(kPaddingOfSciPy)}});
+  UsedOptions used = Used({{"cutoff_hz", options.cutoff_hz}, {"padding_s", kPadding_s}});
   if (window) used.push_back(Used({{"window_s", options.window_s}}).front());
   return used;
 }
@@ -39,7 +39,7 @@ Measure LargestFall(Series slope, const char* unit, Series speed_mps, UsedOption
 std::vector<double> SmoothAcceleration(Series speed_mps, double rate_hz, const AccelerationOptions& options) {
   if (!IsCutoff(options.cutoff_hz, rate_hz)) return std::vector<double>(speed_mps.size(), kMissing);
   const auto section = ButterworthLowPass(options.cutoff_hz, rate_hz);
-  return Derivative(FilterRunsBothWays(section, speed_mps, kPaddingOfSciPy), rate_hz);
+  return Derivative(FilterRunsBothWays(section, speed_mps, PaddingSamples(kPadding_s, rate_hz)), rate_hz);
 }
 
 std::vector<double> Jerk(Series speed_mps, double rate_hz, const AccelerationOptions& options) {

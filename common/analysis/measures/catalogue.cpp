@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "common/core/base/assert.hpp"
@@ -21,8 +22,8 @@ double OptionValues::operator[](std::string_view name) const {
 const std::vector<MeasureInfo>& Catalogue() {
   static const std::vector<MeasureInfo> kCatalogue = [] {
     std::vector<MeasureInfo> all;
-    for (auto family : {LateralMeasures, SteeringMeasures, SpeedMeasures, LeaderMeasures, EncounterMeasures,
-                        DriverMeasures, LaneChangeTestMeasures}) {
+    for (auto family : {LateralMeasures, LaneChangeMeasures, SteeringMeasures, SpeedMeasures, LeaderMeasures,
+                        EncounterMeasures, DriverMeasures, LaneChangeTestMeasures}) {
       auto measures = family();
       std::move(measures.begin(), measures.end(), std::back_inserter(all));
     }
@@ -31,13 +32,36 @@ const std::vector<MeasureInfo>& Catalogue() {
   return kCatalogue;
 }
 
+namespace {
+
+// Measures of the data set highD (XX_tracksMeta.csv), and the names that they have here.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kNamesOfHighD{{
+    {"minDHW", "gap_min_m"},
+    {"minTHW", "time_gap_min_s"},
+    {"minTTC", "ttc_min_s"},
+    {"meanXVelocity", "speed_mean_mps"},
+    {"maxXVelocity", "speed_max_mps"},
+    {"numLaneChanges", "lane_changes_n"},
+    {"traveledDistance", "distance_m"},
+}};
+
+}  // namespace
+
 base::Result<const MeasureInfo*> FindMeasure(const std::string& name) {
-  std::vector<std::string> names;
+  for (const auto& [theirs, own] : kNamesOfHighD) {
+    if (name == theirs) return FindMeasure(std::string(own));
+  }
+  std::vector<std::string> names, stems;  // without the unit
   for (const MeasureInfo& info : Catalogue()) {
     if (name == info.name) return &info;
     names.emplace_back(info.name);
+    stems.push_back(names.back().substr(0, names.back().rfind('_')));
   }
-  const std::string nearest = base::NearestName(name, names);
+  std::string nearest = base::NearestName(name, names);
+  if (nearest.empty()) {
+    const auto stem = std::ranges::find(stems, base::NearestName(name, stems));
+    if (stem != stems.end()) nearest = names[static_cast<std::size_t>(stem - stems.begin())];
+  }
   return base::WrongInput("measure.unknown_measure",
                           fmt::format("there is no measure '{}'{}", name,
                                       nearest.empty() ? "; `rodeira measures --list` names them"
@@ -58,6 +82,9 @@ std::string ListText() {
 std::string ExplainText(const MeasureInfo& info) {
   std::string text = fmt::format("{}\n{}\n\nequation  {}\ntraps     {}\nsource    {}\n", info.name, info.definition,
                                  info.equation, info.traps, info.source);
+  for (const auto& [theirs, own] : kNamesOfHighD) {
+    if (own == info.name) text += fmt::format("highD     {}\n", theirs);
+  }
   if (info.options.empty()) return text + "options   none\n";
   text += "options\n";
   for (const OptionInfo& option : info.options)

@@ -58,11 +58,12 @@ struct MeasureInfo {
 
 // All of them, in the order of a table's columns.
 const std::vector<MeasureInfo>& Catalogue();
-// Wrong input, with the nearest right name, where there is none.
+// Also by the name of highD's files (minTTC). Wrong input, with the nearest right name, where there is none.
 base::Result<const MeasureInfo*> FindMeasure(const std::string& name);
 
 // By family, for Catalogue().
 std::vector<MeasureInfo> LateralMeasures();
+std::vector<MeasureInfo> LaneChangeMeasures();
 std::vector<MeasureInfo> SteeringMeasures();
 std::vector<MeasureInfo> SpeedMeasures();
 std::vector<MeasureInfo> LeaderMeasures();

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/conflict.hpp"
 #include "common/analysis/measures/pedals.hpp"
 #include "common/analysis/measures/responses.hpp"
 #include "common/analysis/measures/statistics.hpp"
@@ -29,9 +32,57 @@ ResponseOptions ResponseOf(const OptionValues& o) {
   return options;
 }
 
+Response FirstResponseIn(const DriveCut& cut, const ResponseOptions& options) {
+  return FirstResponse(cut(cut.drive.throttle), cut(cut.drive.brake), cut(cut.drive.steering_wheel_deg),
+                       cut.drive.rate_hz, options);
+}
+
+// What a column, or two, has at one sample of the cut.
+using ValueAt = double (*)(const Drive& drive, std::size_t k);
+double SpeedAt(const Drive& drive, std::size_t k) { return drive.speed_mps[k]; }
+double GapAt(const Drive& drive, std::size_t k) { return drive.leader.gap_m[k]; }
+double TtcAt(const Drive& drive, std::size_t k) {
+  return TimeToCollision_s(drive.leader.gap_m[k], drive.speed_mps[k], drive.leader.speed_mps[k]);
+}
+
+Measure ValueOf(ValueAt at, const DriveCut& cut, std::size_t sample, const char* unit, UsedOptions used) {
+  const std::size_t all = cut.to - cut.from;
+  if (sample >= all) return NotFound("the interval has no sample", unit, 0, all, std::move(used));
+  const double value = at(cut.drive, cut.from + sample);
+  if (std::isnan(value))
+    return NotFound(at == SpeedAt ? "the sample is missing" : "no leader, or none that is closed in on", unit, 0, all,
+                    std::move(used));
+  Measure measure = Found(value, unit, 1, all, std::move(used));
+  measure.valid_share = 1.0;
+  return measure;
+}
+
+template <ValueAt at>
+Measure AtBegin(const DriveCut& cut, const char* unit) {
+  return ValueOf(at, cut, 0, unit, Used({{"at", "begin"}}));
+}
+
+template <ValueAt at>
+Measure AtResponse(const DriveCut& cut, const OptionValues& o, const char* unit) {
+  const ResponseOptions options = ResponseOf(o);
+  const Response response = FirstResponseIn(cut, options);
+  Measure first = AsMeasure(response, cut(cut.drive.steering_wheel_deg), cut.drive.rate_hz, options);
+  first.options.push_back({"at", "first response"});
+  if (!response.time_s) return NotFound(first.reason, unit, 0, cut.to - cut.from, std::move(first.options));
+  return ValueOf(at, cut, static_cast<std::size_t>(std::llround(*response.time_s * cut.drive.rate_hz)), unit,
+                 std::move(first.options));
+}
+
 constexpr const char* kResponseTraps =
     "from the interval's begin; missing, with its flag, if already there (pre) or not before the end (censored)";
+constexpr const char* kAtTraps = "one sample; an interval that begins at an event begins at its step";
 constexpr const char* kGreen = "Green et al. 2024";
+
+std::vector<OptionInfo> WithFullBrake() {
+  std::vector<OptionInfo> options = kResponseOptions;
+  options.push_back({"full_brake_share", 0.95, 0.01, 1, "of the largest travel in the interval"});
+  return options;
+}
 
 }  // namespace
 
@@ -114,11 +165,48 @@ std::vector<MeasureInfo> DriverMeasures() {
       {"first_response_s", family, "time to the first of release, brake and steering", "minimum of the three",
        kResponseTraps, kGreen, kResponseOptions,
        [](const DriveCut& cut, const OptionValues& o) {
-         const Series wheel = cut(cut.drive.steering_wheel_deg);
-         return AsMeasure(
-             FirstResponse(cut(cut.drive.throttle), cut(cut.drive.brake), wheel, cut.drive.rate_hz, ResponseOf(o)),
-             wheel, cut.drive.rate_hz, ResponseOf(o));
+         return AsMeasure(FirstResponseIn(cut, ResponseOf(o)), cut(cut.drive.steering_wheel_deg), cut.drive.rate_hz,
+                          ResponseOf(o));
        }},
+      {"full_brake_time_s", family, "time from the brake's onset to its full travel",
+       "to full_brake_share of the largest travel in the interval", kResponseTraps, kGreen, WithFullBrake(),
+       [](const DriveCut& cut, const OptionValues& o) {
+         ResponseOptions options = ResponseOf(o);
+         options.full_brake_share = o["full_brake_share"];
+         const Series brake = cut(cut.drive.brake);
+         return AsMeasure(TimeToFullBrake(brake, cut.drive.rate_hz, options), brake, cut.drive.rate_hz, options);
+       }},
+      {"speed_at_begin_mps",
+       family,
+       "speed at the interval's begin",
+       "v of the first sample",
+       kAtTraps,
+       kGreen,
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return AtBegin<SpeedAt>(cut, "m/s"); }},
+      {"gap_at_begin_m",
+       family,
+       "gap at the interval's begin",
+       "gap of the first sample, of any leader",
+       kAtTraps,
+       kGreen,
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return AtBegin<GapAt>(cut, "m"); }},
+      {"ttc_at_begin_s",
+       family,
+       "time to collision at the interval's begin",
+       "gap / (v - v_leader) of the first sample",
+       kAtTraps,
+       kGreen,
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return AtBegin<TtcAt>(cut, "s"); }},
+      {"speed_at_response_mps", family, "speed at the first response", "v at first_response_s", kResponseTraps, kGreen,
+       kResponseOptions, [](const DriveCut& cut, const OptionValues& o) { return AtResponse<SpeedAt>(cut, o, "m/s"); }},
+      {"gap_at_response_m", family, "gap at the first response", "gap at first_response_s", kResponseTraps, kGreen,
+       kResponseOptions, [](const DriveCut& cut, const OptionValues& o) { return AtResponse<GapAt>(cut, o, "m"); }},
+      {"ttc_at_response_s", family, "time to collision at the first response", "TTC at first_response_s",
+       kResponseTraps, kGreen, kResponseOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return AtResponse<TtcAt>(cut, o, "s"); }},
   };
 }
 

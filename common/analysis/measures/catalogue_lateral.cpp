@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/analysis/measures/catalogue.hpp"
 #include "common/analysis/measures/lane_change.hpp"
@@ -139,7 +140,7 @@ std::vector<MeasureInfo> LateralMeasures() {
        family,
        "the same behind a high-pass of 0.1 Hz",
        "SD of y behind a Butterworth high-pass of order 2, pooled",
-       "two passes halve a wave at the cut-off; needs 30 s",
+       "two passes halve a wave at the cut-off and reflect 0.09 s at each end, at every sample rate; needs 30 s",
        "Oestlund et al. 2005",
        {kDdof,
         kCutChanges,
@@ -183,6 +184,38 @@ std::vector<MeasureInfo> LateralMeasures() {
        [](const DriveCut& cut, const OptionValues& o) {
          const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
          return WithPart(DepartureGreatest(both.departures, both.nearer_m, DepartureOptionsOf(o)));
+       }},
+      {"lane_departure_area_ms", family, "integral of the distance beyond a line", "sum of distance dt",
+       "0 without a departure", "SAE J2944 10.2.4", kDepartureOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
+         return WithPart(DepartureArea(both.departures, both.nearer_m, DepartureOptionsOf(o)));
+       }},
+      {"heading_error_mean_deg",
+       family,
+       "mean heading against the lane, positive to the left",
+       "atan2(sum sin e, sum cos e) of the wrapped difference e",
+       "lane changes are in it; missing in junctions",
+       "SAE J2944",
+       {},
+       [](const DriveCut& cut, const OptionValues&) {
+         const Series error = cut(cut.drive.heading_error_rad);
+         const auto mean_rad = CircularMean(error);
+         return FoundOr(mean_rad ? std::optional(*mean_rad * 180.0 / std::numbers::pi) : std::nullopt, kNoLanePosition,
+                        "deg", CountValid(error), error.size());
+       }},
+      {"heading_error_sd_deg",
+       family,
+       "standard deviation of the heading against the lane",
+       "SD of the wrapped difference",
+       "lane changes are in it; missing in junctions",
+       "SAE J2944",
+       {kDdof},
+       [](const DriveCut& cut, const OptionValues& o) {
+         const Series error = cut(cut.drive.heading_error_rad);
+         std::vector<double> deg(error.begin(), error.end());
+         for (double& e : deg) e *= 180.0 / std::numbers::pi;
+         return DeviationOf(deg, "deg", DenominatorOf(o));
        }},
       {"tlc_min_s",
        family,

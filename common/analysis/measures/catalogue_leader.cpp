@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/analysis/measures/acceleration.hpp"
 #include "common/analysis/measures/catalogue.hpp"
 #include "common/analysis/measures/conflict.hpp"
 #include "common/analysis/measures/following.hpp"
@@ -50,20 +51,54 @@ std::vector<double> TtcIn(const DriveCut& cut, Series gap) {
   return TtcSeries(gap, cut(cut.drive.speed_mps), cut(cut.drive.leader.speed_mps));
 }
 
-std::vector<OptionInfo> WithThreshold() {
+const OptionInfo kThreshold{"threshold_s", 3, 0.1, 20, "of the time to collision"};
+std::vector<OptionInfo> With(const OptionInfo& option) {
   std::vector<OptionInfo> options = kFollowedOptions;
-  options.push_back({"threshold_s", 3, 0.1, 20, "of the time to collision"});
+  options.push_back(option);
   return options;
 }
 
-// Both speeds where there is one leader; missing at its changes.
-Following FollowingIn(const DriveCut& cut, const OptionValues& o) {
+// The speed of one leader; missing where another one follows it.
+std::vector<double> LeaderSpeedIn(const DriveCut& cut) {
   const Series id = cut(cut.drive.leader.id), speed = cut(cut.drive.leader.speed_mps);
   std::vector<double> leader(speed.begin(), speed.end());
   for (std::size_t i = 1; i < leader.size(); ++i) {
     if (id[i] != id[i - 1]) leader[i] = kMissing;
   }
-  return FollowLeader(leader, cut(cut.drive.speed_mps), cut.drive.rate_hz,
+  return leader;
+}
+
+// The time to collision if both keep their accelerations.
+Measure AcceleratedTtc(const DriveCut& cut, const OptionValues& o) {
+  const AccelerationOptions filter{.cutoff_hz = o["cutoff_hz"]};
+  const auto gap = GapIn(cut, o), leader = LeaderSpeedIn(cut);
+  const Series own = cut(cut.drive.speed_mps);
+  const auto own_mps2 = SmoothAcceleration(own, cut.drive.rate_hz, filter);
+  const auto leader_mps2 = SmoothAcceleration(leader, cut.drive.rate_hz, filter);
+  std::vector<double> ttc(gap.size());
+  for (std::size_t i = 0; i < ttc.size(); ++i)
+    ttc[i] = TimeToCollision_s(gap[i], own[i], leader[i], own_mps2[i], leader_mps2[i]);
+  Measure measure = LeastTtc(ttc, gap);
+  measure.options = Used({{"cutoff_hz", filter.cutoff_hz}, {"padding_s", kPadding_s}});
+  return OfLeader(std::move(measure), cut, o);
+}
+
+// at(gap, own speed, leader's speed) of each sample: the largest.
+template <class At>
+Measure LargestDrac(const DriveCut& cut, const OptionValues& o, const char* option, const At& at) {
+  const auto gap = GapIn(cut, o);
+  const Series own = cut(cut.drive.speed_mps), leader = cut(cut.drive.leader.speed_mps);
+  std::vector<double> drac(gap.size());
+  for (std::size_t i = 0; i < drac.size(); ++i) drac[i] = at(gap[i], own[i], leader[i]);
+  Measure measure = MaximumOf(drac, "m/s2");
+  if (!measure.value) measure.reason = "the vehicle never closes in so far";
+  measure.options.push_back(Used({{option, o[option]}}).front());
+  return OfLeader(std::move(measure), cut, o);
+}
+
+// Both speeds where there is one leader.
+Following FollowingIn(const DriveCut& cut, const OptionValues& o) {
+  return FollowLeader(LeaderSpeedIn(cut), cut(cut.drive.speed_mps), cut.drive.rate_hz,
                       {.segment_s = o["segment_s"],
                        .frequency_hz = o["frequency_hz"],
                        .min_segments = static_cast<std::size_t>(o["min_segments"])});
@@ -113,6 +148,10 @@ std::vector<MeasureInfo> LeaderMeasures() {
          const auto gap = GapIn(cut, o);
          return OfLeader(LeastTtc(TtcIn(cut, gap), gap), cut, o);
        }},
+      {"ttc_accelerated_min_s", family, "least time to collision if both keep their accelerations",
+       "min of the first root of gap - dv t - da t^2 / 2", "accelerations of low-passed speeds; far roots mean little",
+       "SAE J2944", With({"cutoff_hz", 5, 0.1, 50, "low-pass of both speeds (Butterworth order 2, both ways)"}),
+       AcceleratedTtc},
       {"inverse_ttc_mean_1ps", family, "mean of 1/TTC", "mean of max(0, v - v_leader) / gap", cut_off, "Hayward 1972",
        kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
@@ -120,13 +159,13 @@ std::vector<MeasureInfo> LeaderMeasures() {
          return OfLeader(MeanInverseTtc(TtcIn(cut, gap), gap), cut, o);
        }},
       {"tet_s", family, "time exposed: TTC below a threshold", "sum of dt where TTC < threshold", cut_off,
-       "Minderhoud & Bovy 2001", WithThreshold(),
+       "Minderhoud & Bovy 2001", With(kThreshold),
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
          return OfLeader(TimeExposedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), cut, o);
        }},
       {"tit_s2", family, "time integrated: by how much, and how long",
-       "integral of (threshold - TTC) where TTC < threshold", cut_off, "Minderhoud & Bovy 2001", WithThreshold(),
+       "integral of (threshold - TTC) where TTC < threshold", cut_off, "Minderhoud & Bovy 2001", With(kThreshold),
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
          return OfLeader(TimeIntegratedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), cut, o);
@@ -136,6 +175,22 @@ std::vector<MeasureInfo> LeaderMeasures() {
        [](const DriveCut& cut, const OptionValues& o) {
          const auto drac = DracSeries(GapIn(cut, o), cut(cut.drive.speed_mps), cut(cut.drive.leader.speed_mps));
          return OfLeader(MaximumOf(drac, "m/s2"), cut, o);
+       }},
+      {"drac_modified_max_mps2", family, "largest deceleration rate to avoid the crash after a reaction time",
+       "max of (v - v_leader) / (2 (TTC - reaction_s))", "missing where TTC is below the reaction time",
+       "SUMO SSM Device", With({"reaction_s", 1, 0, 10, "before the vehicle brakes"}),
+       [](const DriveCut& cut, const OptionValues& o) {
+         return LargestDrac(cut, o, "reaction_s", [&](double gap, double own, double leader) {
+           return ModifiedDrac_mps2(TimeToCollision_s(gap, own, leader), own - leader, o["reaction_s"]);
+         });
+       }},
+      {"drac_braking_leader_max_mps2", family, "largest deceleration to stop behind a leader that brakes",
+       "max of v^2 / (2 (gap + v_leader^2 / (2 leader_mps2)))", "also without closing in: another measure than DRAC",
+       "equation of motion", With({"leader_mps2", 6, 0.1, 15, "braking of the leader"}),
+       [](const DriveCut& cut, const OptionValues& o) {
+         return LargestDrac(cut, o, "leader_mps2", [&](double gap, double own, double leader) {
+           return BrakingLeaderDrac_mps2(gap, own, leader, o["leader_mps2"]);
+         });
        }},
       {"following_coherence", family, "coherence of the leader's and the own speed", "|Sxy|^2 / (Sxx Syy)",
        kFollowingTraps, kBrookhuis, kFollowingOptions,

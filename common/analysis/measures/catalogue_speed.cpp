@@ -33,7 +33,8 @@ AccelerationOptions AccelerationOf(const OptionValues& o) { return {o["cutoff_hz
 const std::vector<OptionInfo> kAccelerationOptions{
     {"cutoff_hz", 5, 0.1, 50, "low-pass of the speed (Butterworth order 2, both ways)"},
     {"window_s", 1, 0.01, 60, "of means and slopes"}};
-constexpr const char* kAccelerationTraps = "gear changes are jerks of the car and not of the foot; state the filter";
+constexpr const char* kAccelerationTraps =
+    "gear changes are jerks of the car and not of the foot; state the filter, which reflects 0.09 s at each end";
 
 template <Measure (*Function)(Series, double, const AccelerationOptions&)>
 Measure AccelerationIn(const DriveCut& cut, const OptionValues& o) {

@@ -48,8 +48,10 @@ constexpr std::array kDriveColumns{
     DriveColumn{"follower_speed_mps", Of<&Drive::follower, &Neighbour::speed_mps>},
     DriveColumn{"left_leader_gap_m", Of<&Drive::left_leader, &Neighbour::gap_m>},
     DriveColumn{"left_follower_gap_m", Of<&Drive::left_follower, &Neighbour::gap_m>},
+    DriveColumn{"left_follower_speed_mps", Of<&Drive::left_follower, &Neighbour::speed_mps>},
     DriveColumn{"right_leader_gap_m", Of<&Drive::right_leader, &Neighbour::gap_m>},
     DriveColumn{"right_follower_gap_m", Of<&Drive::right_follower, &Neighbour::gap_m>},
+    DriveColumn{"right_follower_speed_mps", Of<&Drive::right_follower, &Neighbour::speed_mps>},
 };
 
 template <class Visit>

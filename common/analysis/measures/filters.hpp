@@ -22,6 +22,8 @@ bool IsCutoff(double cutoff_hz, double rate_hz);
 
 // Samples by which FilterBothWays extends a series at each end: filtfilt of SciPy, 3 times the number of coefficients.
 inline constexpr std::size_t kPaddingOfSciPy = 9;
+// The same at the 100 Hz of a drive, as a time: one padding at every rate.
+inline constexpr double kPadding_s = 0.09;
 // The 6 samples of MATLAB's filtfilt at the 30 Hz of the authors' steering recordings, as a time: counts near the ends
 // depend on it, and with a number of samples they would depend on the rate.
 inline constexpr double kPaddingOfAuthors_s = 0.2;

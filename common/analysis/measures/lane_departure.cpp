@@ -64,6 +64,14 @@ Measure DepartureShare(std::span<const Departure> departures, Series inside_m, c
   return Found(static_cast<double>(outside) / static_cast<double>(n), "1", n, inside_m.size(), DepartureUsed(options));
 }
 
+Measure DepartureArea(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options) {
+  const std::size_t n = CountValid(inside_m);
+  if (n == 0) return NotFound(kNoLine, "m s", 0, inside_m.size(), DepartureUsed(options));
+  double area_ms = 0.0;
+  for (const Departure& departure : departures) area_ms += departure.area_ms;
+  return Found(area_ms, "m s", n, inside_m.size(), DepartureUsed(options));
+}
+
 Measure DepartureGreatest(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options) {
   const std::size_t n = CountValid(inside_m);
   if (departures.empty())

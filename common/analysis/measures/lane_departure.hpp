@@ -29,10 +29,11 @@ struct Departure {
 std::vector<Departure> Departures(Series inside_m, double rate_hz, const DepartureOptions& options,
                                   std::span<const std::uint8_t> intended = {});
 
-// Of one line, or of both, their departures one list: number, share of time, greatest distance. inside_m: distance from
-// the nearer line; it says how many samples are valid.
+// Of one line, or of both, their departures one list: number, share of time, area (m s), greatest distance. inside_m:
+// distance from the nearer line; it says how many samples are valid.
 Measure DepartureCount(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options);
 Measure DepartureShare(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options);
+Measure DepartureArea(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options);
 Measure DepartureGreatest(std::span<const Departure> departures, Series inside_m, const DepartureOptions& options);
 
 }  // namespace rodeira::measures

@@ -37,7 +37,7 @@ Measure ModifiedSdlp(const LanePosition& position, double rate_hz, const Modifie
   const UsedOptions used = Used({{"denominator", NameOf(options.denominator)},
                                  {"cutoff_hz", options.cutoff_hz},
                                  {"passes", options.both_ways ? "forward and backward" : "forward"},
-                                 {"padding_samples", static_cast<int>(options.both_ways ? kPaddingOfSciPy : 0)},
+                                 {"padding_s", options.both_ways ? kPadding_s : 0.0},
                                  {"min_duration_s", options.min_duration_s}});
   const std::size_t all = position.y_m.size();
   if (!IsCutoff(options.cutoff_hz, rate_hz))
@@ -49,8 +49,8 @@ Measure ModifiedSdlp(const LanePosition& position, double rate_hz, const Modifie
   for (const SampleRun& run : LaneRuns(position)) {
     if (static_cast<double>(run.size()) < options.min_duration_s * rate_hz) continue;
     const Series part = position.y_m.subspan(run.from, run.size());
-    const auto filtered =
-        options.both_ways ? FilterBothWays(section, part, kPaddingOfSciPy) : FilterForward(section, part);
+    const auto filtered = options.both_ways ? FilterBothWays(section, part, PaddingSamples(kPadding_s, rate_hz))
+                                            : FilterForward(section, part);
     if (filtered.empty()) continue;
     std::copy(filtered.begin(), filtered.end(), high.begin() + static_cast<std::ptrdiff_t>(run.from));
     kept.push_back(run);

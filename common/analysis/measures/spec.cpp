@@ -97,7 +97,7 @@ void ReadOptions(const config::Map& root, MeasuresSpec& spec) {
     const config::Map own = options.Child(name);
     for (const OptionInfo& option : info.value()->options) {
       if (!own.Has(option.name)) continue;
-      spec.options[name][option.name] = own.Number(option.name, {option.low, option.high});
+      spec.options[info.value()->name][option.name] = own.Number(option.name, {option.low, option.high});
     }
   }
 }

@@ -51,6 +51,61 @@ TEST(Conflict, ABrakingLeader) {
   EXPECT_TRUE(std::isnan(Drac_mps2(0.0, 20.0, 12.0)));
 }
 
+// The leader brakes by b from v, the follower by as much after rho: the least gap is gap - v rho, where both are at
+// rest, and they collide where v rho is above the gap.
+TEST(Conflict, AFollowerThatBrakesLaterKeepsTheGapLessItsWay) {
+  constexpr double kSpeed = 20.0, kBraking = 4.0;
+  const auto speed_at = [](double t) { return std::max(0.0, kSpeed - kBraking * std::max(0.0, t)); };
+  const auto way_at = [](double t) {
+    const double braked = std::clamp(t, 0.0, kSpeed / kBraking);
+    return kSpeed * std::min(t, 0.0) + (kSpeed - 0.5 * kBraking * braked) * braked;
+  };
+  for (const double gap_m : {30.0, 24.0, 18.0}) {
+    for (const double rho_s : {0.5, 0.9, 1.2}) {
+      Drive drive;
+      const auto own = Sampled(8.0, kRate, [&](double t) { return speed_at(t - rho_s); });
+      GrowColumns(drive, own.size());
+      drive.speed_mps = own;
+      drive.leader.id.assign(own.size(), 1.0);
+      drive.leader.speed_mps = Sampled(8.0, kRate, speed_at);
+      drive.leader.gap_m = Sampled(8.0, kRate, [&](double t) {
+        return gap_m + way_at(t) - (kSpeed * std::min(t, rho_s) + way_at(std::max(0.0, t - rho_s)));
+      });
+      const auto value = [&](const char* name) {
+        const MeasureInfo& info = *FindMeasure(name).value();
+        return info.compute({drive, 0, drive.size(), {}}, OptionValues(info.options, {})).value;
+      };
+      EXPECT_NEAR(*value("gap_min_m"), gap_m - kSpeed * rho_s, 1e-9) << gap_m << " " << rho_s;
+      if (gap_m != kSpeed * rho_s) {
+        EXPECT_EQ(*value("ttc_accelerated_min_s") == 0.0, gap_m < kSpeed * rho_s) << gap_m << " " << rho_s;
+      }
+    }
+  }
+}
+
+// By hand, as measures of a drive: 8 m/s faster from 60 m, 7 s long. MDRAC = 8 / (2 (TTC - 1)), while TTC > 1 s; v^2 /
+// (2 (gap + v_l^2 / 12)) grows with the gap's fall; with the same acceleration of both, TTC is gap / 8.
+TEST(Conflict, MeasuresOfAnApproach) {
+  Drive drive;
+  const auto gap = Sampled(7.0, kRate, [](double t) { return 60.0 - 8.0 * t; });
+  GrowColumns(drive, gap.size());
+  drive.leader.gap_m = gap;
+  drive.leader.id.assign(gap.size(), 7.0);
+  drive.speed_mps = Sampled(7.0, kRate, [](double t) { return 20.0 - 0.5 * t; });
+  drive.leader.speed_mps = Sampled(7.0, kRate, [](double t) { return 12.0 - 0.5 * t; });
+  const auto value = [&](const char* name, const std::map<std::string, double>& given = {}) {
+    const MeasureInfo& info = *FindMeasure(name).value();
+    return *info.compute({drive, 0, drive.size(), {}}, OptionValues(info.options, given)).value;
+  };
+  EXPECT_NEAR(value("drac_modified_max_mps2", {{"reaction_s", 0.4}}), 8.0 / (2.0 * (0.51 - 0.4)), 1e-6);
+  EXPECT_NEAR(value("drac_modified_max_mps2"), 8.0 / (2.0 * 0.01), 1e-6) << "TTC of 1.01 s";
+  double largest = 0.0;
+  for (std::size_t i = 0; i < gap.size(); ++i)
+    largest = std::max(largest, BrakingLeaderDrac_mps2(gap[i], drive.speed_mps[i], drive.leader.speed_mps[i], 6.0));
+  EXPECT_EQ(value("drac_braking_leader_max_mps2"), largest);
+  EXPECT_NEAR(value("ttc_accelerated_min_s"), 0.51, 1e-6);
+}
+
 TEST(Conflict, WithoutALeaderAllIsMissing) {
   const std::vector<double> none(50, kMissing), own(50, 20.0);
   const auto ttc = TtcSeries(none, own, none);

@@ -144,7 +144,7 @@ TEST_F(MeasuresFile, TheOneOfTheHowToIsRead) {
   ASSERT_NE(end, std::string::npos);
   const auto spec = Read(page.value().substr(begin, end - begin));
   ASSERT_TRUE(spec.ok()) << spec.error().Text();
-  EXPECT_EQ(spec.value().intervals.size(), 4u);
+  EXPECT_EQ(spec.value().intervals.size(), 3u);
   EXPECT_EQ(spec.value().options.at("tet_s").at("threshold_s"), 1.5);
 }
 
@@ -171,6 +171,31 @@ TEST(Catalogue, EveryMeasureIsExplained) {
   }
   EXPECT_GE(names.size(), 50u);
   EXPECT_NE(FindMeasure("sdlpm").error().message.find("did you mean 'sdlp_m'?"), std::string::npos);
+  EXPECT_NE(FindMeasure("sdpl").error().message.find("did you mean 'sdlp_m'?"), std::string::npos) << "without a unit";
+  EXPECT_NE(FindMeasure("qwerty").error().message.find("--list"), std::string::npos);
+}
+
+// The names that highD's files have for the same measures, also in a measures file and its options.
+TEST(Catalogue, NamesOfHighD) {
+  for (const auto& [theirs, own] : {std::pair{"minDHW", "gap_min_m"},
+                                    {"minTHW", "time_gap_min_s"},
+                                    {"minTTC", "ttc_min_s"},
+                                    {"maxXVelocity", "speed_max_mps"},
+                                    {"meanXVelocity", "speed_mean_mps"},
+                                    {"numLaneChanges", "lane_changes_n"},
+                                    {"traveledDistance", "distance_m"}}) {
+    ASSERT_TRUE(FindMeasure(theirs).ok()) << theirs;
+    EXPECT_EQ(FindMeasure(theirs).value(), FindMeasure(own).value());
+    EXPECT_NE(ExplainText(*FindMeasure(own).value()).find(theirs), std::string::npos) << own;
+    EXPECT_NE(ListText().find(own), std::string::npos);
+  }
+}
+
+TEST_F(MeasuresFile, NamesOfHighDAreUnderstood) {
+  const auto spec = Read("rodeira: measures/1\nmeasures: [minTTC, ttc_min_s]\noptions: {minTTC: {max_gap_m: 200}}\n");
+  ASSERT_TRUE(spec.ok()) << spec.error().Text();
+  ASSERT_EQ(spec.value().measures.size(), 1u);
+  EXPECT_EQ(spec.value().options.at("ttc_min_s").at("max_gap_m"), 200.0);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ TEST(LaneDeparture, DurationGreatestAndAreaOfAParabola) {
   EXPECT_NEAR(departures[0].greatest_m, kHeight, 1e-9);
   EXPECT_NEAR(departures[0].area_ms, 4.0 / 3.0 * kHeight * half_s, 1e-3);
   EXPECT_FALSE(departures[0].open);
+  EXPECT_EQ(*DepartureArea(departures, inside, {}).value, departures[0].area_ms);
 }
 
 // One drive along the line that trembles by 5 cm is one departure; without hysteresis it is many.
@@ -56,6 +57,8 @@ TEST(LaneDeparture, NoLineIsMissingAndNoDepartureIsZero) {
   const std::vector<double> inside(10, 0.5), nothing(10, kMissing);
   EXPECT_EQ(*DepartureCount({}, inside, {}).value, 0.0);
   EXPECT_FALSE(DepartureCount({}, nothing, {}).value);
+  EXPECT_EQ(*DepartureArea({}, inside, {}).value, 0.0);
+  EXPECT_FALSE(DepartureArea({}, nothing, {}).value);
   EXPECT_FALSE(DepartureGreatest({}, inside, {}).value);
 }
 

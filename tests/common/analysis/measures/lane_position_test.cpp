@@ -27,6 +27,12 @@ TEST(LanePosition, TheModifiedDeviationIsTheHighPass) {
   const double k = std::tan(std::numbers::pi * 0.1 / kRate) / std::tan(std::numbers::pi * 0.2 / kRate);
   EXPECT_NEAR(*ModifiedOf(SineWave(0.3, 0.2, 600.0, kRate), false).value,
               0.3 / std::numbers::sqrt2 / std::sqrt(1.0 + std::pow(k, 4)), 0.002);
+  // In the middle 400 s nothing depends on the ends.
+  const auto section = ButterworthHighPass(0.1, kRate);
+  for (const auto& [hz, expected] : {std::pair{0.1, 0.106066}, {0.2, 0.199654}}) {
+    const auto high = FilterBothWays(section, SineWave(0.3, hz, 600.0, kRate), PaddingSamples(kPadding_s, kRate));
+    EXPECT_NEAR(*Deviation(Series(high).subspan(10'000, 40'000), Denominator::kN), expected, 4e-6) << hz;
+  }
   // A drift alone leaves nothing in the middle, and little at the ends.
   EXPECT_LT(*ModifiedOf(Sampled(600.0, kRate, [](double t) { return 2e-4 * t; }), true).value, 1e-4);
 }
