@@ -18,6 +18,7 @@ if _find_spec("numpy") is None:
 from .env import Box, Env
 from .errors import Error, RecordingWarning
 from .functions import Path, correct_changes, mean_deviation, pet, raff_gap, troutbeck_gap
+from .highd import highd
 from .mcap import Attachment
 from .measured import Measure, Measures, Row, measure_names, measures, series, series_names
 from .nodes import Ragged
@@ -29,5 +30,5 @@ from .world import Lane, Next, Place, World
 
 __all__ = ["Attachment", "Box", "Env", "Error", "Event", "Lane", "Mark", "Measure", "Measures", "Next", "Path",
            "Place", "Ragged", "Recording", "RecordingWarning", "Remark", "Row", "Samples", "Topic", "World",
-           "correct_changes", "mean_deviation", "measure_names", "measures", "open", "pet", "raff_gap", "run", "series",
+           "correct_changes", "highd", "mean_deviation", "measure_names", "measures", "open", "pet", "raff_gap", "run", "series",
            "series_names", "troutbeck_gap"]
