@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Invents the world "HASTE" and prints its world file: python3 tools/author_haste.py > configs/worlds/haste.yaml
 
-No curvature table of the road that the name stands for is public, so that everything here is invented: 2 x 3.5 m, shoulders
+No curvature table of the road that the name stands for is public. Everything here is invented: 2 x 3.5 m, shoulders
 of 0.75 m, radii of 250 to 1000 m with clothoids of A = R/2 to R/3, grades of up to 4 %. Six roads cross the main one at
 grade, one passes over it on a bridge; five villages lie on it. All of it is drawn from a seed.
 """
 import math
 
-from author_n222 import Draw, number
+from authoring import Draw, number
 
 SEED = 2003
 LENGTH_M = 29_600.0
@@ -29,7 +29,8 @@ def main_axis(draw):
         arc = max(60.0, round(radius * turn - clothoid))
         heading += (1.0 if left else -1.0) * (arc + clothoid) / radius
         signed = radius if left else -radius
-        found += [("line", straight, 0.0, 0.0), ("in", clothoid, signed, a), ("arc", arc, signed, 0.0), ("out", clothoid, signed, a)]
+        found += [("line", straight, 0.0, 0.0), ("in", clothoid, signed, a), ("arc", arc, signed, 0.0),
+                  ("out", clothoid, signed, a)]
         total += straight + 2.0 * clothoid + arc
     found.append(("line", 300.0, 0.0, 0.0))
     return found, total + 300.0
@@ -99,7 +100,10 @@ def print_axis(axis):
         elif kind == "arc":
             print(f"      - arc: {{length_m: {number(length)}, radius_m: {number(radius)}}}")
         else:
-            print(f"      - clothoid: {{a_m: {number(a)}, radius_{'end' if kind == 'in' else 'start'}_m: {number(radius)}}}")
+            print(
+                f"      - clothoid: {{a_m: {number(a)}, radius_{'end' if kind == 'in' else 'start'}_m: "
+                f"{number(radius)}}}"
+            )
 
 
 def print_village(name, begin, end):
@@ -129,17 +133,22 @@ def main():
         if a - used > 1500.0:
             apart.append((a, b))
             used = a
-    sites = [apart[round(i * (len(apart) - 1) / (len(VILLAGES) + CROSSINGS))] for i in range(len(VILLAGES) + CROSSINGS + 1)]
+    sites = [
+        apart[round(i * (len(apart) - 1) / (len(VILLAGES) + CROSSINGS))] for i in range(len(VILLAGES) + CROSSINGS + 1)
+    ]
     villages = [(name, site[0] + 20.0, site[1] - 20.0) for name, site in zip(VILLAGES, sites[1::2])]
     rest = [site for site in sites if all(site[0] + 20.0 != village[1] for village in villages)]
     crossings = [round(0.5 * (a + b)) for a, b in rest[:CROSSINGS]]
     over = round(0.5 * (rest[CROSSINGS][0] + rest[CROSSINGS][1]))
 
-    print(f"""# A world for long drives: a main road of {number(length / 1000)} km through hills and villages, crossed by other roads. Invented:
+    described = (f"a main road of {number(length)} m, {CROSSINGS} roads that cross it, one above it, "
+                 f"{len(VILLAGES)} villages; all invented")
+    road = f"a main road of {number(length / 1000)} km"
+    print(f"""# A world for long drives: {road} through hills and villages, crossed by other roads. Invented:
 # tools/author_haste.py says how, and wrote this file (its seed {SEED}); format: docs/reference/world-files.md.
 rodeira: world/2
 name: HASTE
-description: a main road of {number(length)} m, {CROSSINGS} roads that cross it, one above it, {len(VILLAGES)} villages; all invented
+description: {described}
 
 terrain:
   surface: grass
@@ -201,7 +210,10 @@ roads:
     for begin, end in sorted(closed):
         begin, end = max(begin, at), max(end, at)
         if begin - at > 120.0:
-            print(f"      - {{lane: 0, kind: dashed, stroke_m: 4, gap_m: 8, from_s_m: {number(at)}, to_s_m: {number(begin - 60)}}}")
+            print(
+                f"      - {{lane: 0, kind: dashed, stroke_m: 4, gap_m: 8, from_s_m: {number(at)}, to_s_m: "
+                f"{number(begin - 60)}}}"
+            )
             print(f"      - {{lane: 0, kind: dashed_warn, from_s_m: {number(begin - 60)}, to_s_m: {number(begin)}}}")
         else:
             begin = at
@@ -220,11 +232,20 @@ roads:
     print("    objects:")
     for name, begin, end in villages:
         for side in ("left", "right"):
-            print(f"      - {{type: house, side: {side}, beside_m: 12, from_s_m: {number(begin + 15)}, every_m: 32, to_s_m: {number(end - 15)}}}")
-        print(f"      - {{type: lamp, side: right, beside_m: 0.3, from_s_m: {number(begin)}, every_m: 40, to_s_m: {number(end)}}}")
+            print(
+                f"      - {{type: house, side: {side}, beside_m: 12, from_s_m: {number(begin + 15)}, every_m: 32, "
+                f"to_s_m: {number(end - 15)}}}"
+            )
+        print(
+            f"      - {{type: lamp, side: right, beside_m: 0.3, from_s_m: {number(begin)}, every_m: 40, to_s_m: "
+            f"{number(end)}}}"
+        )
     print(f"      - {{type: filling_station, side: right, beside_m: 14, s_m: {number(villages[2][2] + 60)}}}")
     print(f"      - {{type: guard_rail, side: right, from_s_m: {number(over - 40)}, to_s_m: {number(over + 40)}}}")
-    print(f"      - {{type: tree, side: left, beside_m: 9, from_s_m: {number(villages[0][2] + 40)}, every_m: 25, to_s_m: {number(villages[0][2] + 640)}}}")
+    print(
+        f"      - {{type: tree, side: left, beside_m: 9, from_s_m: {number(villages[0][2] + 40)}, every_m: 25, to_s_m: "
+        f"{number(villages[0][2] + 640)}}}"
+    )
     for i, s in enumerate(crossings):
         z, turn = height(points, s), round(draw.uniform(62.0, 118.0))
         first, second = round(draw.uniform(-0.03, 0.03), 3), round(draw.uniform(-0.03, 0.03), 3)
@@ -266,7 +287,10 @@ roads:
     print("\njunctions:")
     for i, s in enumerate(crossings):
         control = "stop" if i % 3 == 0 else "give_way"
-        print(f"  - {{id: j{i + 1}, roads: [{{road: main, s_m: {number(s)}}}, {{road: cross{i + 1}, s_m: 700}}], control: {control}}}")
+        print(
+            f"  - {{id: j{i + 1}, roads: [{{road: main, s_m: {number(s)}}}, {{road: cross{i + 1}, s_m: 700}}], "
+            f"control: {control}}}"
+        )
 
 
 if __name__ == "__main__":

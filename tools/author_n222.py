@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Invents the world "N222" and prints its world file: python3 tools/author_n222.py > configs/worlds/n222.yaml
 
-Nothing of it is surveyed. What is taken from the real road between Regua and Pinhao: 93 bends on 27 km (3.4 a km), radii
+Nothing of it is surveyed. From the real road between Regua and Pinhao are: 93 bends on 27 km (3.4 a km), radii
 of 30 to 200 m, a carriageway of at least 5.50 m, paved shoulders of 0.50 m. The rest is drawn from a seed. The axis is
 accepted where it stays within the terrain and keeps clear of itself; `rodeira world check` has the last word.
 
-What stands beside the road follows from it and from the hills, which are computed here as `common/world/road/hills.cpp` does: guard
-rails where the land falls away, chevrons and warnings at the sharp bends, rows of vines, olives and trees where there is room.
+The objects beside the road follow from it and from the hills, which are computed as in `common/world/road/hills.cpp`:
+guard rails where the land falls away, chevrons and warnings at the sharp bends, rows of vines, olives and trees where
+there is room.
 """
 import bisect
 import math
+
+from authoring import Draw, number
 
 BENDS = 19
 LANE_M, SHOULDER_M, EDGE_LINE_M = 2.90, 0.50, 0.12
@@ -18,27 +21,11 @@ GENERAL_HEADING_DEG = 20.0
 VERGE_M, FALL, VERGE_FALL = 1.2, 0.025, 0.08
 EDGE_M = LANE_M + SHOULDER_M + VERGE_M  # of all that is built, from the axis
 SHARP_M = 50.0                          # radius: from here on a bend has a warning and chevrons
-# Of this seed's hills none stands before those who may overtake; tests/common/world/road/n222_test.cpp looks along every such stretch.
-HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "base_z_m": 120, "below_m": 0.3, "flat_m": 5, "full_m": 90, "reach_m": 270}
-REACH_M = 20                            # of cuts and fills: less than to the centre of the sharpest bend, where they would meet themselves
+# No hill of this seed hides the road where overtaking is allowed: tests/common/world/road/n222_test.cpp.
+HILLS = {"seed": 230, "columns": 513, "rows": 513, "spacing_m": 10, "west_m": -2560, "south_m": -2560, "base_z_m": 120,
+         "below_m": 0.3, "flat_m": 5, "full_m": 90, "reach_m": 270}
+REACH_M = 20  # of cuts and fills: less than to the centre of the sharpest bend, where they would meet themselves
 RELIEF = [(1900, 260), (800, 110), (350, 40), (140, 10), (60, 2)]  # wavelength, amplitude
-
-
-class Draw:
-    """A small generator of its own (SplitMix64), so that the file never depends on a library's version."""
-
-    def __init__(self, seed):
-        self.state = seed
-
-    def bits(self):
-        self.state = (self.state + 0x9E3779B97F4A7C15) % 2**64
-        z = self.state
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 % 2**64
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EB % 2**64
-        return z ^ (z >> 31)
-
-    def uniform(self, low, high):
-        return low + (high - low) * (self.bits() >> 11) / 2**53
 
 
 def bends(draw):
@@ -158,7 +145,8 @@ def height(points, s):
         into = s - (at - 0.5 * parabola)
         if parabola and 0.0 <= into < parabola:
             turn = (grades[i] - grades[i - 1]) / parabola
-            return z - 0.5 * parabola * grades[i - 1] + grades[i - 1] * into + 0.5 * turn * into * into, grades[i - 1] + turn * into
+            z_there = z - 0.5 * parabola * grades[i - 1] + grades[i - 1] * into + 0.5 * turn * into * into
+            return z_there, grades[i - 1] + turn * into
     i = max((k for k in range(len(points) - 1) if points[k][0] <= s), default=0)
     return points[i][1] + grades[i] * (s - points[i][0]), grades[i]
 
@@ -188,7 +176,8 @@ class Axis:
         i = min(max(bisect.bisect_right(self.stations, s) - 1, 0), len(self.stations) - 1)
         x, y, heading, k = self.poses[i]
         ahead = s - self.stations[i]
-        return x + ahead * math.cos(heading + 0.5 * k * ahead), y + ahead * math.sin(heading + 0.5 * k * ahead), heading + k * ahead, k
+        middle = heading + 0.5 * k * ahead
+        return x + ahead * math.cos(middle), y + ahead * math.sin(middle), heading + k * ahead, k
 
     def beside(self, s, t):
         x, y, heading, _ = self.at(s)
@@ -204,7 +193,8 @@ class Hills:
             steps = math.ceil(length / 40.0)
             for i in range(steps + 1):
                 s = begin + length * i / steps
-                self.road.append((*axis.at(s)[:2], height(axis.grades, s)[0], length / steps * (0.5 if i in (0, steps) else 1.0)))
+                share = length / steps * (0.5 if i in (0, steps) else 1.0)
+                self.road.append((*axis.at(s)[:2], height(axis.grades, s)[0], share))
             begin += length
         self.gradients = {}
 
@@ -239,16 +229,13 @@ class Hills:
         heights, nearest = weights * HILLS["base_z_m"], 1e18
         for px, py, pz, length in self.road:
             squared = (x - px) ** 2 + (y - py) ** 2
-            weight = length * max(0.0, 1.0 - squared / HILLS["reach_m"] ** 2) ** 3 / (squared + HILLS["flat_m"] ** 2) ** 2
-            weights, heights, nearest = weights + weight, heights + weight * (pz - HILLS["below_m"]), min(nearest, squared)
+            weight = length * max(0.0, 1.0 - squared / HILLS["reach_m"]**2)**3 / (squared + HILLS["flat_m"]**2)**2
+            weights, heights = weights + weight, heights + weight * (pz - HILLS["below_m"])
+            nearest = min(nearest, squared)
         u = min(1.0, max(0.0, (math.sqrt(nearest) - HILLS["flat_m"]) / (HILLS["full_m"] - HILLS["flat_m"])))
         east, north = x - HILLS["west_m"], y - HILLS["south_m"]
         grown = u * u * (3.0 - 2.0 * u)
         return heights / weights + grown * sum(a * self.noise(i, east, north) for i, (_, a) in enumerate(RELIEF))
-
-
-def number(value):
-    return f"{value:.3f}".rstrip("0").rstrip(".")
 
 
 def spans(road):
@@ -261,8 +248,9 @@ def spans(road):
 
 
 def signs(road, grades, length):
-    """Limits at both ends; before sharp bends and long grades a warning; chevrons on a sharp bend's outside. One post stands at a place."""
-    found = [("{type: speed_limit, value: 70, s_m: 20}", 20.0, "along"), (f"{{type: speed_limit, value: 70, s_m: {number(length - 20)}, for: against}}", length - 20.0, "against")]
+    """Limits at both ends, warnings before sharp bends and long grades, chevrons outside; one post at a place."""
+    found = [("{type: speed_limit, value: 70, s_m: 20}", 20.0, "along"),
+             (f"{{type: speed_limit, value: 70, s_m: {number(length - 20)}, for: against}}", length - 20.0, "against")]
 
     def put(text, s, way):
         if 10.0 < s < length - 10.0 and all(way != other or abs(s - at) > 35.0 for _, at, other in found):
@@ -286,7 +274,8 @@ def signs(road, grades, length):
             continue
         outside, every = "right" if radius > 0.0 else "left", 12
         for way, first in (("along", begin), ("against", begin + 6)):
-            lines.append(f"{{type: chevron, side: {outside}, z_m: 1, for: {way}, from_s_m: {number(first)}, every_m: {every}, to_s_m: {number(end)}}}")
+            where = f"from_s_m: {number(first)}, every_m: {every}, to_s_m: {number(end)}"
+            lines.append(f"{{type: chevron, side: {outside}, z_m: 1, for: {way}, {where}}}")
     return lines
 
 
@@ -311,8 +300,10 @@ def rails(road, axis, hills):
 
 
 def rows(road, axis, hills, draw):
-    """Rows of what grows beside the road, and some houses: (type, side, beside, from, every, to, height). On a bend's inner side they keep
-    the sight clear, and none comes near another part of the road."""
+    """Rows of plants beside the road, and some houses: (type, side, beside, from, every, to, height).
+
+    On a bend's inner side they keep the sight clear, and none comes near another part of the road.
+    """
     found = []
 
     def fits(side, beside, begin, end):
@@ -322,14 +313,16 @@ def rows(road, axis, hills, draw):
             if axis.at(s)[3] * t > 0.0 and (beside < 15.0 or axis.at(s)[3] * t > 0.6):
                 return False
             x, y = axis.beside(s, t)
-            if any(abs(s - at) > 1.2 * (EDGE_M + beside) and math.dist((x, y), pose[:2]) < EDGE_M + 8.0 for at, pose in zip(axis.stations[::4], axis.poses[::4])):
+            if any(abs(s - at) > 1.2 * (EDGE_M + beside) and math.dist((x, y), pose[:2]) < EDGE_M + 8.0
+                   for at, pose in zip(axis.stations[::4], axis.poses[::4])):
                 return False
         return True
 
     def level(side, beside, begin, end):
         """How far the land rises or falls from the road's edge, at most."""
         sign = 1.0 if side == "left" else -1.0
-        return max(abs(hills.at(*axis.beside(s, sign * (EDGE_M + beside))) - height(axis.grades, s)[0]) for s in (begin, 0.5 * (begin + end), end))
+        return max(abs(hills.at(*axis.beside(s, sign * (EDGE_M + beside))) - height(axis.grades, s)[0])
+                   for s in (begin, 0.5 * (begin + end), end))
 
     s = 60.0
     while s < axis.length - 120.0:
@@ -344,12 +337,14 @@ def rows(road, axis, hills, draw):
             for row in range(3):
                 beside = round(7.0 + 7.0 * row + draw.uniform(0.0, 2.0), 1)
                 if fits(side, beside, begin, end):
-                    found.append(("tree", side, beside, begin + 3 * row, 8 + row, end, round(draw.uniform(3.5, 5.5), 1)))
+                    tall = round(draw.uniform(3.5, 5.5), 1)
+                    found.append(("tree", side, beside, begin + 3 * row, 8 + row, end, tall))
         else:             # a wood
             for row in range(4):
                 beside, every = round(6.5 + 5.0 * row + draw.uniform(0.0, 3.5), 1), round(draw.uniform(7.0, 16.0), 1)
                 if fits(side, beside, begin, end):
-                    found.append(("tree", side, beside, begin + round(draw.uniform(0.0, 9.0)), every, end, round(draw.uniform(5.0, 11.0), 1)))
+                    found.append(("tree", side, beside, begin + round(draw.uniform(0.0, 9.0)), every, end,
+                                  round(draw.uniform(5.0, 11.0), 1)))
         if draw.uniform(0.0, 1.0) < 0.2:
             other = "right" if side == "left" else "left"
             if fits(other, 20.0, begin, begin + 16) and level(other, 20.0, begin, begin + 16) < 2.5:
@@ -363,8 +358,9 @@ def write(seed, road, length, points):
     origin, grades = (round(-box[0]), round(-box[1])), profile(seed, length)
     axis = Axis(road, origin, length, grades)
     hills = Hills(road, axis)
-    print(f"""# A world inspired by the Portuguese national road 222 between Regua and Pinhao. Invented, not surveyed: only the
-# number of bends a km, their range of radii and the widths are those of the real road. Written by
+    print("# A world inspired by the Portuguese national road 222 between Regua and Pinhao. "
+          "Invented, not surveyed: only the")
+    print(f"""# number of bends a km, their range of radii and the widths are those of the real road. Written by
 # tools/author_n222.py (its seed {seed}); the format is described in docs/reference/world-files.md.
 rodeira: world/2
 name: N222
@@ -420,9 +416,11 @@ roads:
     edge = LANE_M + EDGE_LINE_M / 2
     for t in (-edge, edge):
         print(f"      - {{t_m: {number(t)}, width_m: {number(EDGE_LINE_M)}, kind: continuous}}")
-    kinds = {"free": "dashed, stroke_m: 4, gap_m: 8", "approach": "dashed, stroke_m: 5, gap_m: 2", "closed": "continuous"}
+    kinds = {"free": "dashed, stroke_m: 4, gap_m: 8", "approach": "dashed, stroke_m: 5, gap_m: 2",
+             "closed": "continuous"}
     for begin, end, kind in centre_line(road, length):
-        print(f"      - {{t_m: 0, width_m: 0.1, from_s_m: {number(begin)}, to_s_m: {number(end)}, kind: {kinds[kind]}}}")
+        where = f"from_s_m: {number(begin)}, to_s_m: {number(end)}"
+        print(f"      - {{t_m: 0, width_m: 0.1, {where}, kind: {kinds[kind]}}}")
     print("    signs:")
     for line in signs(road, grades, length):
         print(f"      - {line}")
@@ -432,7 +430,9 @@ roads:
     for side, begin, end in rails(road, axis, hills):
         print(f"      - {{type: guard_rail, side: {side}, from_s_m: {number(begin)}, to_s_m: {number(end)}}}")
     for kind, side, beside, begin, every, end, tall in rows(road, axis, hills, Draw(seed + 2_000_000)):
-        where = f"s_m: {number(begin)}" if every is None else f"from_s_m: {number(begin)}, every_m: {number(every)}, to_s_m: {number(end)}"
+        where = f"s_m: {number(begin)}"
+        if every is not None:
+            where = f"from_s_m: {number(begin)}, every_m: {number(every)}, to_s_m: {number(end)}"
         print(f"      - {{type: {kind}, side: {side}, beside_m: {number(beside)}, {where}, height_m: {number(tall)}}}")
 
 

@@ -3,9 +3,9 @@
 """What SUMO does where docs/explanation/traffic.md compares this project's traffic with it: four cars that meet, a
 closed town, a queue at a light, a turn, a roundabout's entry.
 
-    tools/compare_sumo.py [four | town | queue | turn | roundabout]...     all of them without a word; needs Debian's package `sumo`
+    tools/compare_sumo.py [four | town | queue | turn | roundabout]...     default: all; needs Debian's package `sumo`
 
-Each network is made by netconvert or netgenerate, each number is counted from SUMO's own output, in a folder that is taken away again.
+Each network is made by netconvert or netgenerate. Each number is counted from SUMO's own output, in a temporary folder.
 """
 import math
 import os
@@ -21,7 +21,11 @@ ARMS = {"e": (200, 0), "n": (0, 200), "w": (-200, 0), "s": (0, -200)}
 
 
 def run(folder, *command):
-    done = subprocess.run([str(word) for word in command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run([str(word) for word in command],
+                          cwd=folder,
+                          stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT,
+                          text=True)
     if done.returncode != 0:
         sys.exit(f"compare_sumo.py: '{command[0]}' ended with status {done.returncode}:\n{done.stdout[-2000:]}")
 
@@ -33,21 +37,27 @@ def write(folder, name, text):
 def crossing(folder, kind):
     """Four arms of 200 m and one lane each way around a node of a kind."""
     nodes = "".join(f'<node id="{name}" x="{x}" y="{y}"/>' for name, (x, y) in ARMS.items())
-    edges = "".join(f'<edge id="{a}in" from="{a}" to="c" numLanes="1" speed="13.89"/><edge id="{a}out" from="c" to="{a}" numLanes="1" speed="13.89"/>' for a in ARMS)
+    edges = "".join(
+        f'<edge id="{a}in" from="{a}" to="c" numLanes="1" speed="13.89"/><edge id="{a}out" from="c" to="{a}" '
+        'numLanes="1" speed="13.89"/>'
+        for a in ARMS)
     write(folder, "x.nod.xml", f'<nodes><node id="c" x="0" y="0" type="{kind}"/>{nodes}</nodes>')
     write(folder, "x.edg.xml", f"<edges>{edges}</edges>")
     run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "--no-turnarounds", "-o", "net.xml")
 
 
 def sumo(folder, step_s, end_s, *more):
-    run(folder, "sumo", "-n", "net.xml", "-r", "routes.xml", "--step-length", step_s, "--end", end_s, "--no-step-log", "--seed", 1, *more)
+    run(folder, "sumo", "-n", "net.xml", "-r", "routes.xml", "--step-length", step_s, "--end", end_s, "--no-step-log",
+        "--seed", 1, *more)
 
 
 def four(folder):
     """Four cars straight on, with priority to the right: when the last one has arrived."""
     crossing(folder, "right_before_left")
     over = {"e": "w", "w": "e", "n": "s", "s": "n"}
-    write(folder, "routes.xml", "<routes>" + "".join(f'<trip id="{a}" depart="0" from="{a}in" to="{b}out"/>' for a, b in over.items()) + "</routes>")
+    write(
+        folder, "routes.xml", "<routes>" + "".join(f'<trip id="{a}" depart="0" from="{a}in" to="{b}out"/>'
+                                                   for a, b in over.items()) + "</routes>")
     for step_s in (1, 0.1, 0.01):
         sumo(folder, step_s, 600, "--tripinfo-output", "trips.xml")
         last = max(float(trip.get("duration")) for trip in xml.parse(folder / "trips.xml").getroot())
@@ -55,8 +65,9 @@ def four(folder):
 
 
 def town(folder):
-    """10 x 10 crossings 200 m apart, as many cars as 45 a kilometre of lane, who drive about for half an hour: how many SUMO takes off the road."""
-    run(folder, "netgenerate", "--grid", "--grid.number", 10, "--grid.length", 200, "-j", "right_before_left", "--no-turnarounds.except-deadend", "true", "-o", "net.xml")
+    """10 x 10 crossings 200 m apart, 45 cars a kilometre of lane, half an hour: how many cars SUMO teleports."""
+    run(folder, "netgenerate", "--grid", "--grid.number", 10, "--grid.length", 200, "-j", "right_before_left",
+        "--no-turnarounds.except-deadend", "true", "-o", "net.xml")
     root = xml.parse(folder / "net.xml").getroot()
     edges = [edge.get("id") for edge in root.iter("edge") if edge.get("function") != "internal"]
     onward = {edge: [] for edge in edges}
@@ -70,69 +81,113 @@ def town(folder):
         way = [edges[number % len(edges)]]
         while len(way) < 160:
             way.append(draws.choice(onward[way[-1]]))
-        routes.append(f'<vehicle id="{number}" depart="0" departPos="random_free"><route edges="{" ".join(way)}"/></vehicle>')
+        routes.append(
+            f'<vehicle id="{number}" depart="0" departPos="random_free"><route edges="{" ".join(way)}"/></vehicle>')
     write(folder, "routes.xml", "<routes>" + "\n".join(routes) + "</routes>")
     sumo(folder, 1, 1800, "--statistic-output", "said.xml")
     said = xml.parse(folder / "said.xml").getroot()
     teleports = said.find("teleports")
-    print(f"closed town, {count} cars on {0.2 * len(edges):.0f} km: {teleports.get('total')} taken off the road ({teleports.get('yield')} at a crossing, {teleports.get('jam')} in a jam), "
-          f"{said.find('vehicles').get('inserted')} had found room")
+    print(
+        f"closed town, {count} cars on {0.2 * len(edges):.0f} km: {teleports.get('total')} taken off the road "
+        f"({teleports.get('yield')} at a crossing, {teleports.get('jam')} in a jam), "
+        f"{said.find('vehicles').get('inserted')} had found room")
 
 
 def queue(folder):
     """A queue of forty at a light that turns green: vehicles an hour over the line, from the fifth to the 25th."""
-    write(folder, "x.nod.xml", '<nodes><node id="a" x="0" y="0"/><node id="b" x="1000" y="0" type="traffic_light"/><node id="c" x="2000" y="0"/></nodes>')
-    write(folder, "x.edg.xml", '<edges><edge id="in" from="a" to="b" numLanes="1" speed="13.89"/><edge id="out" from="b" to="c" numLanes="1" speed="13.89"/></edges>')
+    write(
+        folder, "x.nod.xml",
+        '<nodes><node id="a" x="0" y="0"/><node id="b" x="1000" y="0" type="traffic_light"/><node id="c" x="2000" '
+        'y="0"/></nodes>'
+    )
+    write(
+        folder, "x.edg.xml",
+        '<edges><edge id="in" from="a" to="b" numLanes="1" speed="13.89"/><edge id="out" from="b" to="c" numLanes="1" '
+        'speed="13.89"/></edges>'
+    )
     run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "-o", "net.xml")
     light = next(xml.parse(folder / "net.xml").getroot().iter("tlLogic"))
-    write(folder, "light.xml", f'<additional><tlLogic id="{light.get("id")}" type="static" programID="queue"><phase duration="300" state="r"/><phase duration="600" state="G"/></tlLogic>'
-          '<instantInductionLoop id="line" lane="in_0" pos="-1" file="passed.xml"/></additional>')
+    write(
+        folder, "light.xml",
+        f'<additional><tlLogic id="{light.get("id")}" type="static" programID="queue"><phase duration="300" state="r"/>'
+        '<phase duration="600" state="G"/></tlLogic>'
+        '<instantInductionLoop id="line" lane="in_0" pos="-1" file="passed.xml"/></additional>')
     for model in ("Krauss", "IDM"):
         for step_s in (1, 0.1):
-            write(folder, "routes.xml", f'<routes><vType id="car" carFollowModel="{model}"/><route id="way" edges="in out"/>'
-                  '<flow id="f" type="car" route="way" begin="0" end="200" number="40" departSpeed="max"/></routes>')
+            write(
+                folder, "routes.xml",
+                f'<routes><vType id="car" carFollowModel="{model}"/><route id="way" edges="in out"/>'
+                '<flow id="f" type="car" route="way" begin="0" end="200" number="40" departSpeed="max"/></routes>')
             sumo(folder, step_s, 900, "-a", "light.xml")
-            times = [float(at.get("time")) for at in xml.parse(folder / "passed.xml").getroot().iter("instantOut") if at.get("state") == "leave"]
+            times = [
+                float(at.get("time")) for at in xml.parse(folder / "passed.xml").getroot().iter("instantOut")
+                if at.get("state") == "leave"
+            ]
             print(f"saturation flow, {model}, steps of {step_s} s: {3600 * 20 / (times[24] - times[4]):.0f} an hour")
 
 
 def turn(folder):
-    """One car turns left and one right at the crossing, seen every hundredth of a second: what a person in it would feel."""
+    """One car turns left and one right at the crossing: acceleration and jerk, sampled every 10 ms."""
     crossing(folder, "right_before_left")
     for name, out in (("left", "sout"), ("right", "nout")):
         write(folder, "routes.xml", f'<routes><trip id="t" depart="0" from="ein" to="{out}"/></routes>')
         sumo(folder, 0.01, 120, "--fcd-output", "cars.xml", "--precision", 6)
-        seen = [(float(v.get("angle")), float(v.get("speed"))) for v in xml.parse(folder / "cars.xml").getroot().iter("vehicle")]
+        seen = [(float(v.get("angle")), float(v.get("speed")))
+                for v in xml.parse(folder / "cars.xml").getroot().iter("vehicle")]
         rates = [math.radians((b[0] - a[0] + 180) % 360 - 180) / 0.01 for a, b in zip(seen, seen[1:])]
         lateral = [rate * at[1] for rate, at in zip(rates, seen)]
         along = [(b[1] - a[1]) / 0.01 for a, b in zip(seen, seen[1:])]
         jerk = max(max(abs(b - a) / 0.01 for a, b in zip(of, of[1:])) for of in (lateral, along))
-        print(f"turning {name}: {max(abs(a) for a in lateral):.1f} m/s2 sideways, {math.degrees(max(abs(r) for r in rates)):.0f} deg/s, changes of acceleration of {jerk:.0f} m/s3")
+        print(
+            f"turning {name}: {max(abs(a) for a in lateral):.1f} m/s2 sideways, "
+            f"{math.degrees(max(abs(r) for r in rates)):.0f} deg/s, changes of acceleration of {jerk:.0f} m/s3"
+        )
 
 
 def roundabout(folder):
-    """A ring of 16 m radius with four arms: of two after each other one sends cars past the next, at which a queue waits; both leave at the one after. Who enters, an hour."""
+    """A ring of 16 m radius with four arms: vehicles an hour that enter from a queue.
+
+    The arm before the queue's sends cars past it. The cars of both leave at the arm after.
+    """
     points = [(math.cos(angle), math.sin(angle)) for angle in (0, math.pi / 2, math.pi, 3 * math.pi / 2)]
-    nodes = "".join(f'<node id="r{i}" x="{16 * x:.3f}" y="{16 * y:.3f}" type="priority"/><node id="a{i}" x="{200 * x:.3f}" y="{200 * y:.3f}"/>' for i, (x, y) in enumerate(points))
+    nodes = "".join(
+        f'<node id="r{i}" x="{16 * x:.3f}" y="{16 * y:.3f}" type="priority"/><node id="a{i}" x="{200 * x:.3f}" '
+        f'y="{200 * y:.3f}"/>'
+        for i, (x, y) in enumerate(points))
     write(folder, "x.nod.xml", f"<nodes>{nodes}</nodes>")
     edges = []
     for i in range(4):
-        shape = " ".join(f"{16 * math.cos(math.pi / 2 * (i + k / 8)):.3f},{16 * math.sin(math.pi / 2 * (i + k / 8)):.3f}" for k in range(9))
-        edges.append(f'<edge id="ring{i}" from="r{i}" to="r{(i + 1) % 4}" numLanes="1" speed="8.33" priority="2" shape="{shape}"/>')
-        edges.append(f'<edge id="in{i}" from="a{i}" to="r{i}" numLanes="1" speed="13.89" priority="1"/><edge id="out{i}" from="r{i}" to="a{i}" numLanes="1" speed="13.89" priority="1"/>')
-    write(folder, "x.edg.xml", "<edges>" + "".join(edges) + "<roundabout nodes=\"r0 r1 r2 r3\" edges=\"ring0 ring1 ring2 ring3\"/></edges>")
+        shape = " ".join(
+            f"{16 * math.cos(math.pi / 2 * (i + k / 8)):.3f},{16 * math.sin(math.pi / 2 * (i + k / 8)):.3f}"
+            for k in range(9))
+        edges.append(
+            f'<edge id="ring{i}" from="r{i}" to="r{(i + 1) % 4}" numLanes="1" speed="8.33" priority="2" '
+            f'shape="{shape}"/>'
+        )
+        edges.append(
+            f'<edge id="in{i}" from="a{i}" to="r{i}" numLanes="1" speed="13.89" priority="1"/><edge id="out{i}" '
+            f'from="r{i}" to="a{i}" numLanes="1" speed="13.89" priority="1"/>'
+        )
+    write(folder, "x.edg.xml",
+          "<edges>" + "".join(edges) + "<roundabout nodes=\"r0 r1 r2 r3\" edges=\"ring0 ring1 ring2 ring3\"/></edges>")
     run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "--no-turnarounds", "-o", "net.xml")
     for wish in (0, 200, 400, 600, 800, 1000, 1200):
-        past = f'<flow id="past" route="past" begin="0" end="1200" vehsPerHour="{wish}" departSpeed="max"/>' if wish else ""
-        write(folder, "routes.xml", '<routes><route id="past" edges="in0 ring0 ring1 out2"/><route id="queue" edges="in1 ring1 out2"/>' + past +
-              '<flow id="queue" route="queue" begin="0" end="1200" vehsPerHour="2000" departSpeed="max"/></routes>')
+        flow = f'<flow id="past" route="past" begin="0" end="1200" vehsPerHour="{wish}" departSpeed="max"/>'
+        past = flow if wish else ""
+        write(
+            folder, "routes.xml",
+            '<routes><route id="past" edges="in0 ring0 ring1 out2"/><route id="queue" edges="in1 ring1 out2"/>' + past
+            + '<flow id="queue" route="queue" begin="0" end="1200" vehsPerHour="2000" departSpeed="max"/></routes>')
         sumo(folder, 0.1, 1200, "--tripinfo-output", "trips.xml")
         count = {"past": 0, "queue": 0}
         for trip in xml.parse(folder / "trips.xml").getroot():
             if float(trip.get("arrival")) > 200:
                 count[trip.get("id").split(".")[0]] += 3.6
         handbook = 1380 * math.exp(-0.00102 * count["past"])
-        print(f"roundabout: {count['past']:.0f} an hour circulate, {count['queue']:.0f} enter (by the handbook {handbook:.0f}: {100 * (count['queue'] / handbook - 1):+.0f} %)")
+        print(
+            f"roundabout: {count['past']:.0f} an hour circulate, {count['queue']:.0f} enter (by the handbook "
+            f"{handbook:.0f}: {100 * (count['queue'] / handbook - 1):+.0f} %)"
+        )
 
 
 def main():

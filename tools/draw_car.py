@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the mechanism of a multibody vehicle file from the side, from above and from the front: draw_car.py FILE.yaml FILE.svg
+"""Draws the mechanism of a multibody vehicle file from the side, from above and from the front.
 
-Rods and arms are lines between their points, carriers are filled, springs thick, points are dots (those of the chassis hollow), wheels as
-they stand. Needs python3-yaml; `rsvg-convert FILE.svg -o FILE.png` makes a picture of it.
+    tools/draw_car.py FILE.yaml FILE.svg
+
+Rods and arms are lines between their points, carriers are filled, springs thick, points are dots (those of the chassis
+hollow), wheels as they stand. Needs python3-yaml; `rsvg-convert FILE.svg -o FILE.png` makes a picture of it.
 """
 import sys
 
@@ -11,7 +13,14 @@ import yaml
 
 SCALE = 240.0  # pixels a metre
 MARGIN = 60.0
-COLOURS = {"plate": "#3a6ea5", "rod": "#3a6ea5", "carrier": "#b5542c", "spring": "#2b8a3e", "chassis": "#888888", "wheel": "#222222"}
+COLOURS = {
+    "plate": "#3a6ea5",
+    "rod": "#3a6ea5",
+    "carrier": "#b5542c",
+    "spring": "#2b8a3e",
+    "chassis": "#888888",
+    "wheel": "#222222"
+}
 
 
 def main(source, target):
@@ -29,8 +38,11 @@ def main(source, target):
         ("from the front", lambda p: (p[1], p[2]), (2 * MARGIN + (2 * reach + half) * SCALE, MARGIN + high * SCALE)),
     ]
     size = (3 * MARGIN + (2 * reach + 2 * half) * SCALE, 3 * MARGIN + (high + 2 * half) * SCALE)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{size[0]:.0f}" height="{size[1]:.0f}" font-family="sans-serif" font-size="14">',
-           '<rect width="100%" height="100%" fill="white"/>']
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{size[0]:.0f}" height="{size[1]:.0f}" '
+        'font-family="sans-serif" font-size="14">',
+        '<rect width="100%" height="100%" fill="white"/>'
+    ]
     for number, (title, project, origin) in enumerate(views):
         def xy(p):
             u, v = project(p)
@@ -38,14 +50,18 @@ def main(source, target):
 
         def line(a, b, colour, thick):
             (x1, y1), (x2, y2) = xy(a), xy(b)
-            out.append(f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" stroke-width="{thick}" stroke-linecap="round"/>')
+            out.append(
+                f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" '
+                f'stroke-width="{thick}" stroke-linecap="round"/>'
+            )
 
         def shape(points, colour, filled):
             text = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(xy, points))
             fill = f'fill="{colour}" fill-opacity="0.25"' if filled else 'fill="none"'
             out.append(f'<polygon points="{text}" {fill} stroke="{colour}" stroke-width="2"/>')
 
-        left, top = origin[0] - SCALE * (half if number == 2 else reach), origin[1] - SCALE * (half if number == 1 else high)
+        left, top = origin[0] - SCALE * (half if number == 2 else reach), origin[1] - SCALE * (half
+                                                                                               if number == 1 else high)
         out.append(f'<text x="{left:.1f}" y="{top - 14:.1f}">{title}</text>')
         if number != 1:
             line((reach, half, 0.0), (-reach, -half, 0.0), "#aaaaaa", 1)
@@ -53,17 +69,30 @@ def main(source, target):
             x, y, z = at[hub]
             if number == 0:
                 cx, cy = xy(at[hub])
-                out.append(f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="{radius * SCALE:.1f}" fill="none" stroke="{COLOURS["wheel"]}" stroke-width="1.5"/>')
+                out.append(
+                    f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="{radius * SCALE:.1f}" fill="none" '
+                    f'stroke="{COLOURS["wheel"]}" stroke-width="1.5"/>'
+                )
             else:
-                corners = [(x + i * radius, y + j * 0.5 * width, z + k * radius) for i, j, k in
-                           ([(1, 1, 0), (1, -1, 0), (-1, -1, 0), (-1, 1, 0)] if number == 1 else [(0, 1, 1), (0, -1, 1), (0, -1, -1), (0, 1, -1)])]
+                corners = [
+                    (x + i * radius, y + j * 0.5 * width, z + k * radius)
+                    for i, j, k in ([(1, 1, 0), (1, -1, 0), (-1, -1,
+                                                             0), (-1, 1,
+                                                                  0)] if number == 1 else [(0, 1,
+                                                                                            1), (0, -1,
+                                                                                                 1), (0, -1,
+                                                                                                      -1), (0, 1, -1)])
+                ]
                 shape(corners, COLOURS["wheel"], False)
         for name, body in mechanism["bodies"].items():
             points = [at[p] for p in body["points"]]
             if name == "chassis":
                 for p in points[1:]:
                     x, y = xy(p)
-                    out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="white" stroke="{COLOURS["chassis"]}" stroke-width="2"/>')
+                    out.append(
+                        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="white" stroke="{COLOURS["chassis"]}" '
+                        'stroke-width="2"/>'
+                    )
             elif body.get("kind") == "plate":
                 shape(points[:3], COLOURS["plate"], True)
             elif name.endswith("carrier"):
@@ -80,10 +109,14 @@ def main(source, target):
                 continue
             x, y = xy(p)
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="black"/>')
-    legend = [("chassis: 22 points", "chassis"), ("arms, rods, rack", "rod"), ("carriers", "carrier"), ("springs and dampers", "spring"), ("wheels", "wheel")]
+    legend = [("chassis: 22 points", "chassis"), ("arms, rods, rack", "rod"), ("carriers", "carrier"),
+              ("springs and dampers", "spring"), ("wheels", "wheel")]
     x, y = views[2][2][0] - half * SCALE, views[1][2][1] - 40
     for i, (text, colour) in enumerate(legend):
-        out.append(f'<line x1="{x:.1f}" y1="{y + 26 * i - 5:.1f}" x2="{x + 30:.1f}" y2="{y + 26 * i - 5:.1f}" stroke="{COLOURS[colour]}" stroke-width="5"/>')
+        out.append(
+            f'<line x1="{x:.1f}" y1="{y + 26 * i - 5:.1f}" x2="{x + 30:.1f}" y2="{y + 26 * i - 5:.1f}" '
+            f'stroke="{COLOURS[colour]}" stroke-width="5"/>'
+        )
         out.append(f'<text x="{x + 40:.1f}" y="{y + 26 * i:.1f}">{text}</text>')
     out.append("</svg>")
     open(target, "w", encoding="utf-8").write("\n".join(out) + "\n")

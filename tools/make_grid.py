@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a town of N x N crossings as a traffic map, for benchmarks: priority to the right everywhere, streets of 200 m.
+"""Writes a town of N x N crossings as a traffic map, for benchmarks: priority to the right, streets of 200 m.
 
   tools/make_grid.py N FILE.motors
 
@@ -24,13 +24,14 @@ def grid(count, name):
             if other is not None and dx + dy < 0:
                 continue  # laid from the other end
             far = LENGTH - REACH if other is not None else OUT
-            there = plan.lane(away(LENGTH * x, LENGTH * y, angle, REACH), away(LENGTH * x, LENGTH * y, angle, far), LANE, DASHED,
-                              BOUNDARY, MIDDLE if other is not None else END)
+            there = plan.lane(away(LENGTH * x, LENGTH * y, angle, REACH), away(LENGTH * x, LENGTH * y, angle, far),
+                              LANE, DASHED, BOUNDARY, MIDDLE if other is not None else END)
             back = math.remainder(angle + math.pi, math.tau)
-            end = (LENGTH * x + dx * (LENGTH if other is not None else OUT), LENGTH * y + dy * (LENGTH if other is not None else OUT))
+            end = (LENGTH * x + dx * (LENGTH if other is not None else OUT), LENGTH * y + dy *
+                   (LENGTH if other is not None else OUT))
             start = REACH if other is not None else 0
-            come = plan.lane(away(*end, back, start), away(*end, back, (LENGTH if other is not None else OUT) - REACH), LANE, DASHED,
-                             BOUNDARY, MIDDLE if other is not None else START)
+            come = plan.lane(away(*end, back, start), away(*end, back, (LENGTH if other is not None else OUT) - REACH),
+                             LANE, DASHED, BOUNDARY, MIDDLE if other is not None else START)
             here.append((angle, come, there, False))
             if other is not None:
                 other.append((back, there, come, False))

@@ -5,8 +5,8 @@
   tools/make_maps.py [FOLDER]
 
 A lane is laid from one pose to another: its two borders are cubic Bézier curves, circular arcs as far as a cubic is one
-(handles of 4/3 tan(angle/4) radii). Lanes side by side share a curve. Coordinates are rounded to a millimetre, so the same
-script gives the same bytes. Right-hand traffic; metres, x east, y north, angles from east to north.
+(handles of 4/3 tan(angle/4) radii). Lanes side by side share a curve. Coordinates are rounded to a millimetre, so the
+same script gives the same bytes. Right-hand traffic; metres, x east, y north, angles from east to north.
 """
 import math
 import pathlib
@@ -93,7 +93,9 @@ class Map:
             rows += [f"  {n}: [{', '.join(text(v) for v in z)}]" for n, z in self.heights.items()]
         if self.lights:
             rows += ["lights:  # of each junction; who is green: lanes, at whose end a light stands", "  - phases:"]
-            rows += [f"      - {{green: [{', '.join(map(str, lanes))}], for_s: {seconds}}}" for lanes, seconds in self.lights]
+            rows += [
+                f"      - {{green: [{', '.join(map(str, lanes))}], for_s: {seconds}}}" for lanes, seconds in self.lights
+            ]
         if len(rows) > 1:
             companion.write_text("\n".join(rows + [""]))
 
@@ -106,7 +108,8 @@ def meadow(width, height):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))
-            + chunk(b"PLTE", bytes((96, 128, 72, 104, 136, 80))) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+            + chunk(b"PLTE", bytes(
+                (96, 128, 72, 104, 136, 80))) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
 
 
 LANE = 3.25  # width of a street's lane
@@ -194,10 +197,12 @@ def ramp():
             plan.lane(Pose(0, third, 0), Pose(220, third, 0), width, SPEED_CTRL, BOUNDARY),
             plan.lane(Pose(220, third, 0), Pose(290, outer, 0), width, NONE, BOUNDARY)]
     plan.chain(*join, rows["outer"][3])
-    leave = [plan.lane(Pose(520, outer, 0), Pose(590, third, 0), width, SPEED_CTRL, BOUNDARY),
-             plan.lane(Pose(590, third, 0), Pose(690, third - 100 * math.tan(bend / 2), -bend), width, BOUNDARY, BOUNDARY),
-             plan.lane(Pose(690, third - 100 * math.tan(bend / 2), -bend),
-                       Pose(690, third - 100 * math.tan(bend / 2), -bend).moved(110, 0), width, BOUNDARY, BOUNDARY, END)]
+    leave = [
+        plan.lane(Pose(520, outer, 0), Pose(590, third, 0), width, SPEED_CTRL, BOUNDARY),
+        plan.lane(Pose(590, third, 0), Pose(690, third - 100 * math.tan(bend / 2), -bend), width, BOUNDARY, BOUNDARY),
+        plan.lane(Pose(690, third - 100 * math.tan(bend / 2), -bend),
+                  Pose(690, third - 100 * math.tan(bend / 2), -bend).moved(110, 0), width, BOUNDARY, BOUNDARY, END)
+    ]
     plan.chain(rows["outer"][3], *leave)
     return plan
 
@@ -208,8 +213,16 @@ def town():
     shift = {(0, 0): (-8, 5), (1, 0): (6, -9), (2, 0): (3, 8), (0, 1): (-5, 7), (1, 1): (0, 0), (2, 1): (9, -6),
              (0, 2): (7, -4), (1, 2): (-8, 6), (2, 2): (-3, -7)}
     nodes = {n: (n[0] * 130 - 130 + dx, n[1] * 130 - 130 + dy) for n, (dx, dy) in shift.items()}
-    outside = {"w0": ((0, 0), (-250, -120)), "s1": ((1, 0), (10, -250)), "e0": ((2, 0), (250, -130)), "w1": ((0, 1), (-250, 15)),
-               "e1": ((2, 1), (250, -10)), "n0": ((0, 2), (-130, 250)), "n1": ((1, 2), (-15, 250)), "e2": ((2, 2), (250, 110))}
+    outside = {
+        "w0": ((0, 0), (-250, -120)),
+        "s1": ((1, 0), (10, -250)),
+        "e0": ((2, 0), (250, -130)),
+        "w1": ((0, 1), (-250, 15)),
+        "e1": ((2, 1), (250, -10)),
+        "n0": ((0, 2), (-130, 250)),
+        "n1": ((1, 2), (-15, 250)),
+        "e2": ((2, 2), (250, 110))
+    }
     reach = {n: 34 if n == (1, 1) else 14 for n in nodes}
     arms = {n: [] for n in nodes}
 
@@ -217,8 +230,10 @@ def town():
         angle = math.atan2(pb[1] - pa[1], pb[0] - pa[0])
         length = math.dist(pa, pb)
         back = math.remainder(angle + math.pi, math.tau)
-        there = plan.lane(away(*pa, angle, ra), away(*pa, angle, length - rb), LANE, DASHED, BOUNDARY, END if b is None else MIDDLE)
-        here = plan.lane(away(*pb, back, rb), away(*pb, back, length - ra), LANE, DASHED, BOUNDARY, START if b is None else MIDDLE)
+        there = plan.lane(away(*pa, angle, ra), away(*pa, angle, length - rb), LANE, DASHED, BOUNDARY,
+                          END if b is None else MIDDLE)
+        here = plan.lane(away(*pb, back, rb), away(*pb, back, length - ra), LANE, DASHED, BOUNDARY,
+                         START if b is None else MIDDLE)
         arms[a].append((angle, here, there, minor))
         if b is not None:
             arms[b].append((back, there, here, minor))
@@ -253,7 +268,9 @@ def overpass():
         for i, (a, b) in enumerate(zip(stations, stations[1:])):
             mode = START if i == 0 else END if i == 5 else MIDDLE
             z = heights[i]
-            over.append(plan.lane(pose(LANE / 2, a, math.pi / 2), pose(LANE / 2, b, math.pi / 2), LANE, SINGLE, BOUNDARY, mode, z))
+            over.append(
+                plan.lane(pose(LANE / 2, a, math.pi / 2), pose(LANE / 2, b, math.pi / 2), LANE, SINGLE, BOUNDARY, mode,
+                          z))
         under = [plan.lane(pose(a, -LANE / 2, 0), pose(b, -LANE / 2, 0), LANE, SINGLE, BOUNDARY, mode)
                  for a, b, mode in ((-low, 210, START), (210, low, END))]
         plan.chain(*over)

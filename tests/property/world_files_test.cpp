@@ -30,7 +30,8 @@ rule: right
 friction: {asphalt: 0.9}
 materials: {worn: {surface: asphalt, friction: 0.85, texture: worn.png}}
 terrain:
-  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180, relief: [{wavelength_m: 200, amplitude_m: 5}]}
+  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180,
+    relief: [{wavelength_m: 200, amplitude_m: 5}]}
 start: {road: main, lane: -1, s_m: 20}
 templates: {lane: {lanes: [{id: -1, width_m: 3}], verge: {width_m: 1}}}
 roads:
@@ -56,10 +57,12 @@ roads:
       - {lane: 0, kind: mixed, left: dashed, right: continuous, to_s_m: 120}
       - {ts: [{s_m: 100, t_m: 3.4}, {s_m: 160, t_m: 3}], kind: dashed_warn, colour: yellow}
     signs: [{type: speed_limit, value: 70, s_m: 100}, {type: chevron, t_m: 6, from_s_m: 170, every_m: 10}]
-    objects: [{type: tree, t_m: 14, from_s_m: 50, every_m: 15, to_s_m: 150}, {type: guard_rail, side: left, from_s_m: 160}]
+    objects: [{type: tree, t_m: 14, from_s_m: 50, every_m: 15, to_s_m: 150}, {type: guard_rail, side: left,
+      from_s_m: 160}]
     bridges: [{from_s_m: 170, to_s_m: 180}]
     patches: [{from_s_m: 20, to_s_m: 40, to_t_m: 1, friction: 0.2}, {from_s_m: 30, to_s_m: 50, material: worn}]
-    bumps: [{from_s_m: 30, to_s_m: 34, height_m: 0.1}, {from_s_m: 42, to_s_m: 48, heights: [{s_m: 0, z_m: 0}, {s_m: 3, z_m: 0.1}, {s_m: 6, z_m: 0}]}]
+    bumps: [{from_s_m: 30, to_s_m: 34, height_m: 0.1}, {from_s_m: 42, to_s_m: 48,
+      heights: [{s_m: 0, z_m: 0}, {s_m: 3, z_m: 0.1}, {s_m: 6, z_m: 0}]}]
     surfaces: [{iso_8608: B, seed: 7, from_s_m: 10, to_s_m: 30}, {crg: bumps.crg, from_s_m: 120, to_s_m: 140}]
   - id: street
     place: {road: main, s_m: 80, turn_deg: 80, own_s_m: 0}
@@ -76,7 +79,8 @@ objects:
 constexpr const char* kBare = R"(rodeira: world/2
 name: bare
 terrain:
-  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180, relief: [{wavelength_m: 200, amplitude_m: 5}]}
+  generate: {seed: 9, columns: 12, rows: 10, spacing_m: 40, west_m: -220, south_m: -180,
+    relief: [{wavelength_m: 200, amplitude_m: 5}]}
 objects:
   - {type: lamp, x_m: 20, y_m: 60, z_m: 0.5, height_m: 6}
   - {type: wall, along: [[-100, 60], [0, 80], [60, 70]], height_m: 2}
@@ -191,23 +195,29 @@ TEST(WorldFiles, OpenDriveOnDisk) {
   const auto measured = [](const std::string& surfaces) {
     opendrive::RoadText road;
     road.geometry =
-        R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry><geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
+        R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry>
+            <geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
     road.elevation =
         R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
-    road.more =
-        "<surface>" + surfaces +
-        R"(</surface><objects><object id="o" s="10" t="8" type="tree" height="6" radius="1"/><object id="b" s="30" t="6" type="barrier" length="1" width="0.2" height="1">
-        <repeat s="30" length="40" distance="0" tStart="6" tEnd="7" heightStart="1" heightEnd="1" zOffsetStart="0" zOffsetEnd="0"/></object></objects>
-        <signals><signal id="s" s="90" t="-5" dynamic="no" orientation="+" type="274" subtype="-1" value="50"/></signals>)";
+    road.more = "<surface>" + surfaces +
+                R"(</surface><objects><object id="o" s="10" t="8" type="tree" height="6" radius="1"/>
+            <object id="b" s="30" t="6" type="barrier" length="1" width="0.2" height="1">
+        <repeat s="30" length="40" distance="0" tStart="6" tEnd="7" heightStart="1" heightEnd="1" zOffsetStart="0"
+          zOffsetEnd="0"/></object></objects>
+        <signals><signal id="s" s="90" t="-5" dynamic="no" orientation="+" type="274" subtype="-1" value="50"/>
+          </signals>)";
     return opendrive::Document(road.Text());
   };
   const std::vector<std::string> good = {
       measured(
-          R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/><CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
+          R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/>
+              <CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
       measured(
           R"(<CRG file="made.crg" sStart="60" sEnd="61.5" mode="genuine" tOffset="0.2" hOffset="0.01" zOffset="1"/>)"),
       measured(
-          R"(<CRG file="placed.crg" sStart="18" sEnd="60" mode="global" zOffset="1.4"/><CRG file="placed.crg" sStart="60" sEnd="90" mode="global" orientation="opposite" purpose="friction" zOffset="0.5"/>)"),
+          R"(<CRG file="placed.crg" sStart="18" sEnd="60" mode="global" zOffset="1.4"/>
+              <CRG file="placed.crg" sStart="60" sEnd="90" mode="global" orientation="opposite" purpose="friction"
+              zOffset="0.5"/>)"),
       measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" purpose="friction" zOffset="0.5"/>)")};
   {
     // The good one of them that lies where it says itself, lies under its road.

@@ -3,7 +3,8 @@
 // Reads a recording twice with MCAP's reference reader (as a stream, and by its index), every checksum on, and decodes
 // every message by the IDL text that the recording carries. Each decoded message is encoded again and must give the
 // same bytes: so no byte is left over, and no padding holds rubbish. Prints the messages per topic.
-// EXPECTED.json, where given: {"topic": [message, …]}, 64-bit integers as texts, messages in the order of their log times.
+// EXPECTED.json, where given: {"topic": [message, …]}, 64-bit integers as texts, messages in the order of their
+// log times.
 // Exit status 0: nothing was found. 1: something was, one line each. 2: the arguments are wrong.
 import { open, readFile } from "node:fs/promises";
 import { crc32, crc32Final, crc32Init, crc32Update } from "@foxglove/crc";
@@ -43,7 +44,8 @@ class FileReadable {
 // Encodes decoded values again as plain CDR (XCDR1: eight-byte numbers lie on eight bytes), padding zero.
 class Encoder {
   static SCALARS = {
-    bool: [1, "setUint8"], int8: [1, "setInt8"], uint8: [1, "setUint8"], int16: [2, "setInt16"], uint16: [2, "setUint16"],
+    bool: [1, "setUint8"], int8: [1, "setInt8"], uint8: [1, "setUint8"],
+    int16: [2, "setInt16"], uint16: [2, "setUint16"],
     int32: [4, "setInt32"], uint32: [4, "setUint32"], int64: [8, "setBigInt64"], uint64: [8, "setBigUint64"],
     float32: [4, "setFloat32"], float64: [8, "setFloat64"],
   };
@@ -102,7 +104,8 @@ class Decoder {
   }
 
   decode(data) {
-    if (data[0] !== 0 || data[1] > 1) throw new Error(`its encapsulation is ${data[0]} ${data[1]}, plain CDR was expected`);
+    if (data[0] !== 0 || data[1] > 1)
+      throw new Error(`its encapsulation is ${data[0]} ${data[1]}, plain CDR was expected`);
     const value = this.reader.readMessage(data);
     const encoder = new Encoder(this.definitions, data);
     encoder.struct(this.schemaName, value);
@@ -208,10 +211,12 @@ async function readByIndex(handle, size, decompressHandlers, tally, found) {
     byTopic.set(topic, (byTopic.get(topic) ?? 0) + Number(count));
   }
   for (const [topic, { count }] of tally.byTopic) {
-    if (byTopic.get(topic) !== count) problem(`topic ${topic}: the statistics name ${byTopic.get(topic)} messages of ${count}`);
+    if (byTopic.get(topic) !== count)
+      problem(`topic ${topic}: the statistics name ${byTopic.get(topic)} messages of ${count}`);
   }
   for (const channel of found.channels.values()) {
-    if (reader.channelsById.get(channel.id)?.topic !== channel.topic) problem(`topic ${channel.topic} is not in the summary`);
+    if (reader.channelsById.get(channel.id)?.topic !== channel.topic)
+      problem(`topic ${channel.topic} is not in the summary`);
   }
   return reader;
 }
@@ -241,7 +246,8 @@ async function compareWithExpected(reader, path) {
     if (got !== wanted) problem(`topic ${channel.topic}, message ${i}: ${got} was read, ${wanted} was written`);
   }
   for (const [topic, messages] of Object.entries(expected)) {
-    if ((next.get(topic) ?? 0) !== messages.length) problem(`topic ${topic}: ${next.get(topic) ?? 0} of ${messages.length} messages`);
+    if ((next.get(topic) ?? 0) !== messages.length)
+      problem(`topic ${topic}: ${next.get(topic) ?? 0} of ${messages.length} messages`);
   }
 }
 
@@ -259,7 +265,8 @@ async function main(path, expectedPath) {
     if (expectedPath) await compareWithExpected(reader, expectedPath);
     for (const channel of found.channels.values()) {
       const schema = found.schemas.get(channel.schemaId);
-      console.log(`topic ${channel.topic} (${schema?.name}): ${stream.byTopic.get(channel.topic)?.count ?? 0} messages`);
+      const count = stream.byTopic.get(channel.topic)?.count ?? 0;
+      console.log(`topic ${channel.topic} (${schema?.name}): ${count} messages`);
     }
   } finally {
     await handle.close();
@@ -267,7 +274,8 @@ async function main(path, expectedPath) {
 }
 
 if (process.argv.length < 3 || process.argv.length > 4) {
-  console.error("one argument was expected: a recording; optionally what it should hold: node check.mjs FILE.mcap [EXPECTED.json]");
+  console.error("one argument was expected: a recording; optionally what it should hold: " +
+    "node check.mjs FILE.mcap [EXPECTED.json]");
   process.exit(2);
 }
 try {

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRoad = R"(<?xml version="1.0"?>
 <OpenDRIVE><header revMajor="1" revMinor="7"/>
-<road id="1" length="400" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="400"><line/></geometry></planView>
+<road id="1" length="400" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="400"><line/></geometry>
+  </planView>
 <elevationProfile><elevation s="0" a="2" b="0.02" c="0" d="0"/></elevationProfile>
 <lanes><laneSection s="0">
 <left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left>

@@ -9,7 +9,9 @@ inline constexpr const char* kPlacedGlsl = R"(
 #ifdef INSTANCED
 attribute vec4 instance_place;
 attribute vec4 instance_shape;
-vec2 Turned(vec2 v) { return vec2(instance_shape.x * v.x - instance_shape.y * v.y, instance_shape.y * v.x + instance_shape.x * v.y); }
+vec2 Turned(vec2 v) {
+  return vec2(instance_shape.x * v.x - instance_shape.y * v.y, instance_shape.y * v.x + instance_shape.x * v.y);
+}
 vec4 Placed() {
   return vec4(instance_place.xyz + vec3(Turned(gl_Vertex.xy * instance_shape.z), gl_Vertex.z * instance_shape.w), 1.0);
 }

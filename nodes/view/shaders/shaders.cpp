@@ -49,8 +49,10 @@ uniform vec4 to_wide;
 float SunnyNear() {
 #ifdef SOFT_SHADOW
   float soft = sun_map_texel * 0.75;
-  return 0.25 * (shadow2D(sun_map, in_sun + vec3(soft, soft, 0.0)).r + shadow2D(sun_map, in_sun + vec3(-soft, soft, 0.0)).r +
-                 shadow2D(sun_map, in_sun + vec3(soft, -soft, 0.0)).r + shadow2D(sun_map, in_sun + vec3(-soft, -soft, 0.0)).r);
+  return 0.25 * (shadow2D(sun_map, in_sun + vec3(soft, soft, 0.0)).r +
+                 shadow2D(sun_map, in_sun + vec3(-soft, soft, 0.0)).r +
+                 shadow2D(sun_map, in_sun + vec3(soft, -soft, 0.0)).r +
+                 shadow2D(sun_map, in_sun + vec3(-soft, -soft, 0.0)).r);
 #else
   return shadow2D(sun_map, in_sun).r;
 #endif
@@ -77,7 +79,8 @@ vec3 Beam() {
   float above = dot(ray - lamp_ahead_eye * ahead, up_eye);
   float cone = smoothstep(0.80, 0.97, ahead) * (1.0 - 0.9 * (1.0 - main_beam) * smoothstep(-0.01, 0.02, above));
   float facing = 0.3 + 0.7 * max(dot(-ray, normalize(normal_eye)), 0.0);
-  return vec3(1.0, 0.95, 0.84) * (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / (24.0 + 36.0 * main_beam), 2.0)));
+  return vec3(1.0, 0.95, 0.84) *
+         (headlights * 2.4 * cone * facing / (1.0 + pow(distance_m / (24.0 + 36.0 * main_beam), 2.0)));
 }
 #endif
 )";
@@ -284,7 +287,8 @@ void main() {
   daylight = base_light + sky * sky_light;
 #ifdef SUN_SHADOW
   sunlight = sun * sun_light;
-  in_sun = (eye_to_sun * vec4(p.xyz + 0.05 * normal_eye, 1.0)).xyz;  // a little before the surface, which else would shade itself
+  // 5 cm off the surface: a surface does not shade itself.
+  in_sun = (eye_to_sun * vec4(p.xyz + 0.05 * normal_eye, 1.0)).xyz;
 #else
   daylight += sun * sun_light;
 #endif

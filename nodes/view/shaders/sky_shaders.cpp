@@ -24,7 +24,8 @@ varying vec3 sky;
 vec3 CloudySky(vec3 d) {
   vec3 colour = SkyColour(d.z);
   vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);
-  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 + texture2D(noise, cloud_at * 0.9).g * 0.1;
+  float cloud = texture2D(noise, cloud_at * 0.11).g * 0.6 + texture2D(noise, cloud_at * 0.31 + 0.37).g * 0.3 +
+                texture2D(noise, cloud_at * 0.9).g * 0.1;
   float low = 0.52 + (0.3 - clouds) * (clouds < 0.3 ? 1.2 : 0.6);
   float cover = smoothstep(low, low + 0.26, cloud) * smoothstep(0.02, 0.25, d.z);
   return mix(colour, vec3(0.97, 0.97, 0.98) * cloud_light, 0.75 * cover);

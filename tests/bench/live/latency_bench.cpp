@@ -45,9 +45,11 @@ std::string LaunchText(const std::string& guid, const std::string& input_ms, con
 world: {}
 nodes:
   road: {{kind: road}}
-  driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml, devices: {{wheel: "{}"}}}}}}
+  driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml,
+    devices: {{wheel: "{}"}}}}}}
   ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml}}}}
-  view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false}}}}
+  view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {},
+    mirrors: [], instruments: false, sound: false}}}}
 )",
                      world, input_ms, guid, view_ms, size.width_px, size.height_px);
 }

@@ -48,8 +48,10 @@ world: configs/worlds/plane.yaml
 nodes:
   road: {{kind: road}}
   driver: {{kind: input, config: {{source: script, script: "{}/straight.csv"}}}}
-  ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml, start: {{x_m: 0, y_m: 0, heading_deg: 0, speed_mps: 30}}}}}}
-  view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false, frame_log: "{}/frames.csv"}}}}
+  ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml, start: {{x_m: 0, y_m: 0, heading_deg: 0,
+    speed_mps: 30}}}}}}
+  view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {},
+    mirrors: [], instruments: false, sound: false, frame_log: "{}/frames.csv"}}}}
 )",
                      folder.string(), period_ms, width, height, folder.string());
 }

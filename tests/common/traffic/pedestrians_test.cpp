@@ -314,7 +314,8 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
         s, id, way);
   };
   road.more =
-      R"(<objects><object id="z" type="crosswalk" s="200" t="0" zOffset="0" length="4" width="7"/></objects><signals>)" +
+      R"(<objects><object id="z" type="crosswalk" s="200" t="0" zOffset="0" length="4" width="7"/></objects>
+          <signals>)" +
       light(7, 190, '+') + light(8, 210, '-') + "</signals>";
   const NetworkPointer network = opendrive::MustRead(opendrive::Document(
       road.Text() +

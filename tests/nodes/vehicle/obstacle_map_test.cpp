@@ -109,7 +109,9 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
 // the road, a hedge that leaves the road's line: only the last two are in the way, and the arm is passed under.
 TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
   const std::string corners =
-      R"(<outlines><outline id="0"><cornerRoad s="18" t="3.5" dz="0" height="4" id="0"/><cornerRoad s="18" t="-3.5" dz="0" height="4" id="1"/><cornerRoad s="22" t="-3.5" dz="0" height="4" id="2"/></outline></outlines>)";
+      R"(<outlines><outline id="0"><cornerRoad s="18" t="3.5" dz="0" height="4" id="0"/>
+          <cornerRoad s="18" t="-3.5" dz="0" height="4" id="1"/><cornerRoad s="22" t="-3.5" dz="0" height="4" id="2"/>
+          </outline></outlines>)";
   const std::string text =
       "<?xml version=\"1.0\"?>\n<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"1\" length=\"100\" "
       "junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc "
@@ -119,9 +121,13 @@ TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
       "<objects><object id=\"z\" type=\"crosswalk\" s=\"20\" t=\"0\" height=\"4\">" +
       corners +
       "</object><object id=\"p\" type=\"parkingSpace\" s=\"30\" t=\"0\" length=\"5\" width=\"2.5\" height=\"4\"/>"
-      R"(<object id="m" type="pole" s="0" t="-5" height="6" length="0.3" width="5"><skeleton><polyline id="1"><vertexRoad s="0" t="-5" dz="0" radius="0.2"/><vertexRoad s="0" t="-5" dz="6" radius="0.1"/></polyline>
-      <polyline id="2"><vertexLocal u="0" v="0" z="5" radius="0.1"/><vertexLocal u="0" v="4" z="5.5" radius="0.1"/></polyline></skeleton></object>
-      <object id="w" type="barrier" s="40" t="-6" height="1" width="0.3"><repeat s="40" length="40" distance="0" tStart="-6" tEnd="-6" detachFromReferenceLine="true"/></object></objects></road></OpenDRIVE>)";
+      R"(<object id="m" type="pole" s="0" t="-5" height="6" length="0.3" width="5"><skeleton><polyline id="1">
+          <vertexRoad s="0" t="-5" dz="0" radius="0.2"/><vertexRoad s="0" t="-5" dz="6" radius="0.1"/></polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="5" radius="0.1"/><vertexLocal u="0" v="4" z="5.5" radius="0.1"/>
+        </polyline></skeleton></object>
+      <object id="w" type="barrier" s="40" t="-6" height="1" width="0.3">
+        <repeat s="40" length="40" distance="0" tStart="-6" tEnd="-6" detachFromReferenceLine="true"/></object>
+        </objects></road></OpenDRIVE>)";
   const auto file =
       std::filesystem::temp_directory_path() / ("rodeira-obstacles-" + std::to_string(::getpid()) + ".xodr");
   ASSERT_TRUE(base::WriteWhole(file, std::string_view(text)).ok());

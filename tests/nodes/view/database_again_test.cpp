@@ -155,7 +155,8 @@ TEST_F(AgainTest, AnotherMeasuredSurfaceBuildsTheTilesUnderItAlone) {
 name: measured
 terrain:
   surface: grass
-  generate: {seed: 3, columns: 97, rows: 41, spacing_m: 25, west_m: -200, south_m: -500, relief: [{wavelength_m: 300, amplitude_m: 8}]}
+  generate: {seed: 3, columns: 97, rows: 41, spacing_m: 25, west_m: -200, south_m: -500,
+    relief: [{wavelength_m: 300, amplitude_m: 8}]}
 roads:
   - id: long
     start: {x_m: 0, y_m: 20, heading_deg: 0}

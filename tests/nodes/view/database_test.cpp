@@ -67,7 +67,8 @@ TEST_F(Database, WhateverChangesInAWorldFileAnUpdateIsAFreshBuild) {
 name: two roads in hills
 terrain:
   surface: grass
-  generate: {seed: 3, columns: 65, rows: 33, spacing_m: 25, west_m: -200, south_m: -400, relief: [{wavelength_m: 300, amplitude_m: 8}]}
+  generate: {seed: 3, columns: 65, rows: 33, spacing_m: 25, west_m: -200, south_m: -400,
+    relief: [{wavelength_m: 300, amplitude_m: 8}]}
 roads:
   - id: near
     start: {x_m: 0, y_m: 0, heading_deg: 0}

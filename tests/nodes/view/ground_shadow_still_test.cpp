@@ -102,9 +102,11 @@ TEST(GroundShadow, OfABridgeOnTheRoadBelow) {
   const auto straight = [](int id, double x_m, double y_m, double heading_rad, double z_m) {
     const std::string lane = R"(<width sOffset="0" a="3" b="0" c="0" d="0"/></lane>)";
     return fmt::format(
-        R"(<road id="{}" length="200" junction="-1"><planView><geometry s="0" x="{}" y="{}" hdg="{}" length="200"><line/></geometry></planView>)"
+        R"(<road id="{}" length="200" junction="-1"><planView><geometry s="0" x="{}" y="{}" hdg="{}" length="200">
+            <line/></geometry></planView>)"
         R"(<elevationProfile><elevation s="0" a="{}" b="0" c="0" d="0"/></elevationProfile>)"
-        R"(<lanes><laneSection s="0"><left><lane id="1" type="driving">{}</left><center><lane id="0"/></center><right><lane id="-1" type="driving">{}</right></laneSection></lanes></road>)",
+        R"(<lanes><laneSection s="0"><left><lane id="1" type="driving">{}</left><center><lane id="0"/></center><right>
+            <lane id="-1" type="driving">{}</right></laneSection></lanes></road>)",
         id, x_m, y_m, heading_rad, z_m, lane, lane);
   };
   const auto world =

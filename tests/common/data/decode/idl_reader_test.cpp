@@ -47,7 +47,8 @@ TEST(IdlReader, ReadsAllThatARecordingMayUse) {
 module a { // opened again
   typedef long Number;
   struct Outer {
-    b::Inner one; a::b::Inner two[b::kN][2]; ::a::b::Inner three; b::Gear gear; sequence<b::Gear> gears; string<16> text; string free;
+    b::Inner one; a::b::Inner two[b::kN][2]; ::a::b::Inner three; b::Gear gear; sequence<b::Gear> gears;
+    string<16> text; string free;
     boolean p; octet q; char r; short s; unsigned short t; long u; unsigned long v; long long w; float f; double g;
     int8 i1; uint8 i2; int16 i3; uint16 i4; int32 i5; uint32 i6; int64 i7; uint64 i8; b::Inners inners; Number number;
     @range(min=0, max=(1)) sequence<sequence<double>> grid;

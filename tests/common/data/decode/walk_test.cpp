@@ -30,7 +30,8 @@ base::Bytes Encoded(const std::function<void(Cdr&)>& put, Cdr::Endianness endian
 constexpr const char* kAll = R"(enum Gear { kReverse, kNeutral };
 struct Inner { octet flag; double x; };
 struct All {
-  char c; boolean b; short s; octet o; unsigned long u; long long w; float f; octet o2; double d; string t; sequence<octet> raw;
+  char c; boolean b; short s; octet o; unsigned long u; long long w; float f; octet o2; double d; string t;
+  sequence<octet> raw;
   octet more[3]; Gear gear; sequence<Inner> inners; short grid[2][2]; sequence<double> none; octet last;
 };)";
 

@@ -27,7 +27,8 @@ std::string Bend() {
   straight.link = R"(<successor elementType="road" elementId="2" contactPoint="end"/>)";
   straight.elevation = R"(<elevation s="0" a="0" b="0.03" c="0" d="0"/>)";
   straight.right =
-      R"(<lane id="-1" type="driving"><link><successor id="1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><link><successor id="1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          </lane>)";
   arc.id = "2";
   arc.length = 60;
   const double end = 60.0 / 50.0, x = 100.0 + 50.0 * std::sin(end), y = 50.0 * (1.0 - std::cos(end));
@@ -37,7 +38,8 @@ std::string Bend() {
   arc.elevation = R"(<elevation s="0" a="3" b="0" c="0" d="0"/>)";
   arc.link = R"(<successor elementType="road" elementId="1" contactPoint="end"/>)";
   arc.left =
-      R"(<lane id="1" type="driving"><link><successor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="1" type="driving"><link><successor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          </lane>)";
   return Document(straight.Text() + arc.Text());
 }
 

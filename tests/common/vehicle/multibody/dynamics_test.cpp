@@ -116,7 +116,8 @@ points:
 vectors:
   u: {direction: [1, 1, 0]}
 bodies:
-  rock: {points: [A, B, C, D, E], vectors: [u], mass_kg: 3, centre_m: [0.3, 0.2, 0.1], inertia_kgm2: [0.4, 0.5, 0.6, 0.05, -0.02, 0.01]}
+  rock: {points: [A, B, C, D, E], vectors: [u], mass_kg: 3, centre_m: [0.3, 0.2, 0.1], inertia_kgm2: [0.4, 0.5, 0.6,
+    0.05, -0.02, 0.01]}
 outputs: {z: E.z, vz: E.vz, az: E.az, x: B.x}
 )");
   EXPECT_EQ(body.system->variables(), 18);

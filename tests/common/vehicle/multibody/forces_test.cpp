@@ -41,7 +41,8 @@ bodies:
   crank: {kind: rod, points: [A, B], mass_kg: 1}
   coupler: {kind: rod, points: [B, C], mass_kg: 2}
   rocker: {kind: rod, points: [C, D], mass_kg: 1.5}
-outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: joint coupler B.y, cx: joint rocker C.x, cy: joint rocker C.y,
+outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: joint coupler B.y, cx: joint rocker C.x,
+  cy: joint rocker C.y,
   dx: joint rocker D.x, dy: joint rocker D.y, vbx: B.vx, vby: B.vy, vcx: C.vx, vcy: C.vy}
 )");
   using Flat = Eigen::Vector2d;
@@ -175,7 +176,8 @@ bodies:
 markers:
   tip: {body: arm, at_m: [1, 0, 0]}
 forces:
-  bush: {kind: bushing, first: wall, second: arm, at_m: [0, 0, 0], stiffness_Npm: [1e5, 1e5, 1e5], damping_Nspm: [500, 500, 500], stiffness_Nmprad: 2000, damping_Nmsprad: 20}
+  bush: {kind: bushing, first: wall, second: arm, at_m: [0, 0, 0], stiffness_Npm: [1e5, 1e5, 1e5], damping_Nspm: [500,
+    500, 500], stiffness_Nmprad: 2000, damping_Nmsprad: 20}
 outputs: {z: B.z, tip: tip.z, force: force bush}
 )");
   RunTo(beam, 5.0, 0.001);
@@ -230,7 +232,8 @@ bodies:
 forces:
   one: {kind: bushing, first: frame, point: P, stiffness_Npm: [900, 400, 600]}
   two: {kind: bushing, first: frame, point: Q, stiffness_Npm: [500, 800, 600]}
-outputs: {ax: A.x, ay: A.y, avx: A.vx, avy: A.vy, px: P.x, py: P.y, pvx: P.vx, pvy: P.vy, qx: Q.x, qy: Q.y, qvx: Q.vx, qvy: Q.vy,
+outputs: {ax: A.x, ay: A.y, avx: A.vx, avy: A.vy, px: P.x, py: P.y, pvx: P.vx, pvy: P.vy, qx: Q.x, qy: Q.y, qvx: Q.vx,
+  qvy: Q.vy,
           ex: E.x, ey: E.y, evx: E.vx, evy: E.vy, energy: energy}
 )");
   const auto v = [&pair](const char* name) { return Value(pair, name); };

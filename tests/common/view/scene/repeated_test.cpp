@@ -66,11 +66,16 @@ TEST(Repeated, LeavesHaveTheirTreesColourAndTrunksTheirOwn) {
 
 TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
   const auto world = OpenDriveWorld(
-      R"(<road id="1" length="200" junction="-1"><planView><geometry s="0" x="20" y="100" hdg="0" length="200"><line/></geometry></planView>
-    <lanes><laneSection s="0"><center><lane id="0"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
-    <objects><object id="t" type="tree" s="0" t="-12" zOffset="0" radius="3" height="7"><repeat s="0" length="190" distance="10" tStart="-12" tEnd="-12"/></object>
-    <object id="p" type="guide-post" s="0" t="-6" zOffset="0" height="1"><repeat s="0" length="180" distance="20" tStart="-6" tEnd="-6"/></object>
-    <object id="l" type="streetLamp" s="0" t="6" zOffset="0" height="8"><repeat s="0" length="150" distance="50" tStart="6" tEnd="6"/></object></objects></road>)");
+      R"(<road id="1" length="200" junction="-1"><planView><geometry s="0" x="20" y="100" hdg="0" length="200"><line/>
+          </geometry></planView>
+    <lanes><laneSection s="0"><center><lane id="0"/></center><right><lane id="-1" type="driving">
+      <width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
+    <objects><object id="t" type="tree" s="0" t="-12" zOffset="0" radius="3" height="7">
+      <repeat s="0" length="190" distance="10" tStart="-12" tEnd="-12"/></object>
+    <object id="p" type="guide-post" s="0" t="-6" zOffset="0" height="1">
+      <repeat s="0" length="180" distance="20" tStart="-6" tEnd="-6"/></object>
+    <object id="l" type="streetLamp" s="0" t="6" zOffset="0" height="8">
+      <repeat s="0" length="150" distance="50" tStart="6" tEnd="6"/></object></objects></road>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1U);

@@ -150,7 +150,8 @@ TEST(RoadPaint, AnOutlineTurnedAcrossTheRoadHasStripesAlongItNevertheless) {
   // The object looks to the left; its outline is 7 m along that and 3 m across, with a point in the hull's inside.
   const auto world =
       WorldWith(R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0" hdg="1.5707963267948966"><outline>
-    <cornerLocal u="-3.5" v="-1.5" z="0" height="0"/><cornerLocal u="3.5" v="-1.5" z="0" height="0"/><cornerLocal u="1" v="0" z="0" height="0"/>
+    <cornerLocal u="-3.5" v="-1.5" z="0" height="0"/><cornerLocal u="3.5" v="-1.5" z="0" height="0"/>
+      <cornerLocal u="1" v="0" z="0" height="0"/>
     <cornerLocal u="3.5" v="1.5" z="0" height="0"/><cornerLocal u="-3.5" v="1.5" z="0" height="0"/></outline></object>
     <object id="v" type="crosswalk" subtype="virtual" s="20" t="0" zOffset="0" length="4" width="7"/></objects>)");
   ASSERT_NE(world, nullptr);
@@ -161,7 +162,8 @@ TEST(RoadPaint, AnOutlineTurnedAcrossTheRoadHasStripesAlongItNevertheless) {
 
 TEST(RoadPaint, ACrossingThatIsASignalStaysOnItsRoadsLanes) {
   const auto world = WorldWith(
-      R"(<signals><signal id="z" s="0" t="0" zOffset="0" orientation="+" dynamic="no" type="1000003" subtype="-1" country="OpenDRIVE" value="4" height="0.01" width="10.4"/></signals>)");
+      R"(<signals><signal id="z" s="0" t="0" zOffset="0" orientation="+" dynamic="no" type="1000003" subtype="-1"
+          country="OpenDRIVE" value="4" height="0.01" width="10.4"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 7.0 * 0.5 * 4.0, 1e-2);
@@ -173,9 +175,12 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
   // rear from corner to corner, 2.5 + 5 m, of which 0.5 m at the beginning and 1 m at the end stay bare, in strokes of
   // 1 m and gaps of 0.5 m.
   const auto world = WorldWith(
-      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="0" hdg="1.5707963267948966">
-      <outline><cornerLocal id="0" u="-2.5" v="1.25" height="0"/><cornerLocal id="1" u="-2.5" v="-1.25" height="0"/><cornerLocal id="2" u="2.5" v="-1.25" height="0"/></outline>
-      <markings><marking side="left" width="0.2"/><marking width="0.1" lineLength="1" spaceLength="0.5" startOffset="0.5" stopOffset="1"><cornerReference id="0"/><cornerReference id="1"/>
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="0"
+          hdg="1.5707963267948966">
+      <outline><cornerLocal id="0" u="-2.5" v="1.25" height="0"/><cornerLocal id="1" u="-2.5" v="-1.25" height="0"/>
+        <cornerLocal id="2" u="2.5" v="-1.25" height="0"/></outline>
+      <markings><marking side="left" width="0.2"/><marking width="0.1" lineLength="1" spaceLength="0.5"
+        startOffset="0.5" stopOffset="1"><cornerReference id="0"/><cornerReference id="1"/>
       <cornerReference id="2"/></marking></markings></object></objects>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
@@ -191,7 +196,8 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
 // that a file gives it makes no body of it.
 TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
   const auto world = WorldWith(
-      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4"><material roadMarkColor="yellow"/></object></objects>)");
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4">
+          <material roadMarkColor="yellow"/></object></objects>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 5.0 * 2.5 - 4.76 * 2.26, 2e-3);
@@ -200,8 +206,10 @@ TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
   // A rhomboid of base 2.5 and height 5, slanted by 45 degrees: its inner one has the same shape, 0.12 m within each
   // side.
   const auto slanted = WorldWith(
-      R"(<objects><object id="p" type="parkingSpace" s="50" t="0"><outlines><outline id="0" closed="true"><cornerLocal u="-2.5" v="-2.5" z="0" height="4"/><cornerLocal u="0" v="-2.5" z="0" height="4"/>
-      <cornerLocal u="5" v="2.5" z="0" height="4"/><cornerLocal u="2.5" v="2.5" z="0" height="4"/></outline></outlines></object></objects>)");
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0"><outlines><outline id="0" closed="true">
+          <cornerLocal u="-2.5" v="-2.5" z="0" height="4"/><cornerLocal u="0" v="-2.5" z="0" height="4"/>
+      <cornerLocal u="5" v="2.5" z="0" height="4"/><cornerLocal u="2.5" v="2.5" z="0" height="4"/></outline></outlines>
+        </object></objects>)");
   const double base = 2.5 - 2.0 * 0.12 * std::sqrt(2.0), height = 5.0 - 0.24;
   EXPECT_NEAR(PaintOf(*slanted).area_m2, 2.5 * 5.0 - base * height, 2e-3);
   EXPECT_TRUE(StaticObjects(*slanted).tiles().empty());
@@ -227,9 +235,10 @@ TEST(RoadPaint, AFlatIslandHasItsFrameAndItsFilling) {
     EXPECT_NEAR(frame.area_m2, 18.0 - 5.6 * 2.6, 2e-3) << turned;
     ExpectBox(both, 57.0, 19.0, 63.0, 22.0);
     // From corner 0 to 1 and 2: 6 m and 3 m of 0.2 m, mitred where they meet.
-    const Painted part = PaintOf(*island(
-        "",
-        R"(<borders><border outlineId="0" type="concrete" width="0.2" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/><cornerReference id="2"/></border></borders>)"));
+    const Painted part =
+        PaintOf(*island("",
+                        R"(<borders><border outlineId="0" type="concrete" width="0.2" useCompleteOutline="false">
+            <cornerReference id="0"/><cornerReference id="1"/><cornerReference id="2"/></border></borders>)"));
     EXPECT_NEAR(part.area_m2, 9.0 * 0.2 - 0.04, 2e-3) << turned;
     ExpectBox(part, 57.0, 19.0, 63.0, 22.0);
   }
@@ -252,7 +261,8 @@ TEST(Stencils, AGiveWayLineHasWholeStrokesEvenlyOnBothSides) {
 
 TEST(RoadPaint, AGiveWayLineIsStrokesAcrossItsLane) {
   const auto world = WorldWith(
-      R"(<signals><signal id="l" s="40" t="0" zOffset="0" orientation="-" dynamic="no" type="341" subtype="-1" country="DE" width="3.5"/></signals>)");
+      R"(<signals><signal id="l" s="40" t="0" zOffset="0" orientation="-" dynamic="no" type="341" subtype="-1"
+          country="DE" width="3.5"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 4.0 * 0.5 * 0.4, 1e-2);  // four strokes and three gaps are 2.9 m
@@ -262,7 +272,8 @@ TEST(RoadPaint, AGiveWayLineIsStrokesAcrossItsLane) {
 TEST(RoadPaint, AStopLineLiesOnTheSideOfItsTraffic) {
   for (const auto& [t, south] : {std::pair(0.0, 20.0), std::pair(1.75, 20.0)}) {  // t at its left end, or in its middle
     const auto world = WorldWith(fmt::format(
-        R"(<signals><signal id="l" s="40" t="{}" zOffset="0" orientation="-" dynamic="no" type="294" subtype="-1" country="DE" height="0.03" width="3.5"/></signals>)",
+        R"(<signals><signal id="l" s="40" t="{}" zOffset="0" orientation="-" dynamic="no" type="294" subtype="-1"
+            country="DE" height="0.03" width="3.5"/></signals>)",
         t));
     ASSERT_NE(world, nullptr);
     const Painted painted = PaintOf(*world);
@@ -273,14 +284,16 @@ TEST(RoadPaint, AStopLineLiesOnTheSideOfItsTraffic) {
 
 TEST(RoadPaint, ArrowsPointToTheLeftOfTheirTraffic) {
   const auto world = WorldWith(
-      R"(<signals><signal id="a" s="40" t="1.75" zOffset="0" orientation="-" dynamic="no" type="-1" subtype="-1" country="OpenDRIVE" name="SgRMArrowLeft.flt" height="0.03" width="0.75"/></signals>)");
+      R"(<signals><signal id="a" s="40" t="1.75" zOffset="0" orientation="-" dynamic="no" type="-1" subtype="-1"
+          country="OpenDRIVE" name="SgRMArrowLeft.flt" height="0.03" width="0.75"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted west = PaintOf(*world);  // against s: to the west, with the south on the left
   ExpectBox(west, 47.5, 21.75 - 0.375, 52.5, 21.75 + 0.075);
   EXPECT_NEAR(west.area_m2, AreaOf(ArrowShape({true, false, false}, 5.0, 0.75)), 5e-3);
   EXPECT_LT(west.middle.y(), 21.75);
   const auto object = WorldWith(
-      R"(<objects><object id="a" type="roadMark" subtype="arrowLeft" s="40" t="-1.75" zOffset="0" length="5" width="0.75"/></objects>)");
+      R"(<objects><object id="a" type="roadMark" subtype="arrowLeft" s="40" t="-1.75" zOffset="0" length="5"
+          width="0.75"/></objects>)");
   ASSERT_NE(object, nullptr);
   const Painted east = PaintOf(*object);
   ExpectBox(east, 47.5, 18.25 - 0.075, 52.5, 18.25 + 0.375);

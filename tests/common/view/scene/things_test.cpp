@@ -62,7 +62,8 @@ double Volume(const Mesh& mesh) {
 // A filling station has a roof on posts that a lorry passes under, fits its box, and stands where it was put.
 TEST(StaticObjects, AFillingStationStandsInItsBox) {
   const auto world = WorldWith(
-      R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24" width="14" height="6"/></objects>)");
+      R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24"
+          width="14" height="6"/></objects>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   Vector3d low = Vector3d::Constant(1e9), high = -low;
@@ -81,7 +82,8 @@ TEST(StaticObjects, AFillingStationStandsInItsBox) {
 
 TEST(StaticObjects, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
   const auto world = WorldWith(
-      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
+      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1"
+          country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   int faces = 0;
@@ -111,8 +113,11 @@ TEST(StaticObjects, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) 
 // centimetre before it, to the left or right as its readers see it, on no post of its own.
 TEST(StaticObjects, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
   const auto world = WorldWith(
-      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1" width="2" height="1.5">
-    <staticBoard><sign id="l" country="DE" type="274" subtype="-1" value="70" unit="km/h" v="0.5" z="0.2" width="0.6" height="0.6"/><sign id="r" country="DE" type="206" subtype="-1" v="-0.5" z="0.3" width="0.6" height="0.6"/></staticBoard>
+      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1"
+          width="2" height="1.5">
+    <staticBoard><sign id="l" country="DE" type="274" subtype="-1" value="70" unit="km/h" v="0.5" z="0.2" width="0.6"
+      height="0.6"/><sign id="r" country="DE" type="206" subtype="-1" v="-0.5" z="0.3" width="0.6" height="0.6"/>
+      </staticBoard>
     <vmsBoard displayType="text" v="0" z="1" displayWidth="1.8" displayHeight="0.4"/></signal></signals>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
@@ -159,10 +164,14 @@ TEST(StaticObjects, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
   const auto world = WorldWith(R"(<signals>
     <signal id="both" s="50" t="5" zOffset="2" orientation="none" dynamic="no" type="267" subtype="-1" country="DE"/>
     <signal id="hangs" s="80" t="-2" zOffset="5" orientation="+" dynamic="no" type="999" subtype="-1" country="DE"/>
-    <signal id="light" s="120" t="-5" zOffset="2.2" orientation="+" dynamic="yes" type="1000001" subtype="-1" country="OpenDRIVE"/>
-    <signal id="arrow" s="122" t="-2" zOffset="0" orientation="+" dynamic="no" type="-1" subtype="-1" country="OpenDRIVE" height="0.03" width="0.8"/>
-    <signal id="tall" s="123" t="-5" zOffset="0" orientation="+" dynamic="yes" type="1000001" subtype="-1" country="OpenDRIVE" height="3.22" width="0.45"/>
-    <signal id="line" s="125" t="0" zOffset="0" orientation="+" dynamic="no" type="294" subtype="-1" country="OpenDRIVE"/></signals>)");
+    <signal id="light" s="120" t="-5" zOffset="2.2" orientation="+" dynamic="yes" type="1000001" subtype="-1"
+      country="OpenDRIVE"/>
+    <signal id="arrow" s="122" t="-2" zOffset="0" orientation="+" dynamic="no" type="-1" subtype="-1"
+      country="OpenDRIVE" height="0.03" width="0.8"/>
+    <signal id="tall" s="123" t="-5" zOffset="0" orientation="+" dynamic="yes" type="1000001" subtype="-1"
+      country="OpenDRIVE" height="3.22" width="0.45"/>
+    <signal id="line" s="125" t="0" zOffset="0" orientation="+" dynamic="no" type="294" subtype="-1"
+      country="OpenDRIVE"/></signals>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   std::vector<Thing> all;
@@ -186,7 +195,8 @@ TEST(StaticObjects, ARailFollowsItsBendWithoutAGap) {
   // Half a circle of 50 m to the left about (10, 70), its rail 5 m to the right: 55 m from the middle.
   const double length = 150.0;
   const auto world = WorldWith(
-      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="150" distance="0" tStart="-5" tEnd="-5"/></object></objects>)",
+      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3">
+          <repeat s="0" length="150" distance="0" tStart="-5" tEnd="-5"/></object></objects>)",
       "<arc curvature=\"0.02\"/>", length);
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
@@ -242,7 +252,10 @@ TEST(StaticObjects, ObjectsByTheirKindsAndDeclaredSizes) {
     <object id="tree" type="tree" s="10" t="8" zOffset="0" radius="2" height="7"/>
     <object id="box" type="obstacle" s="30" t="8" zOffset="0.5" length="4" width="2" height="3" hdg="0.5"/>
     <object id="paint" type="parkingSpace" s="40" t="8" zOffset="0" length="5" width="2.5" height="0"/>
-    <object id="block" type="building" s="60" t="20" zOffset="0" height="9"><outline><cornerLocal u="-5" v="-4" z="0" height="9"/><cornerLocal u="5" v="-4" z="0" height="9"/><cornerLocal u="5" v="4" z="0" height="9"/><cornerLocal u="-5" v="4" z="0" height="9"/></outline></object></objects>)");
+    <object id="block" type="building" s="60" t="20" zOffset="0" height="9"><outline>
+      <cornerLocal u="-5" v="-4" z="0" height="9"/><cornerLocal u="5" v="-4" z="0" height="9"/>
+      <cornerLocal u="5" v="4" z="0" height="9"/><cornerLocal u="-5" v="4" z="0" height="9"/></outline></object>
+      </objects>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
@@ -268,8 +281,12 @@ TEST(StaticObjects, ObjectsByTheirKindsAndDeclaredSizes) {
 // An island 0.15 m high with a kerb: the frame stands a centimetre over the filling, and both fill the outline.
 TEST(StaticObjects, AnIslandHasItsKerbAndItsFilling) {
   const auto world = WorldWith(
-      R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines><outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/><cornerLocal u="3" v="-1" z="0" height="0.15"/>
-      <cornerLocal u="3" v="1" z="0" height="0.15"/><cornerLocal u="-3" v="1" z="0" height="0.15"/></outline></outlines><borders><border outlineId="0" type="curb" width="0.25" useCompleteOutline="true"/></borders></object></objects>)");
+      R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines>
+          <outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/>
+          <cornerLocal u="3" v="-1" z="0" height="0.15"/>
+      <cornerLocal u="3" v="1" z="0" height="0.15"/><cornerLocal u="-3" v="1" z="0" height="0.15"/></outline>
+        </outlines><borders><border outlineId="0" type="curb" width="0.25" useCompleteOutline="true"/></borders>
+        </object></objects>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
@@ -297,8 +314,10 @@ TEST(StaticObjects, AnIslandHasItsKerbAndItsFilling) {
 TEST(StaticObjects, AMastIsItsSkeleton) {
   const auto world =
       WorldWith(R"(<objects><object id="m" type="pole" s="50" t="-5" height="4" length="0.3" width="5"><skeleton>
-      <polyline id="1"><vertexRoad s="50" t="-5" dz="0" radius="0.15"/><vertexRoad s="50" t="-5" dz="4" radius="0.1"/></polyline>
-      <polyline id="2"><vertexLocal u="0" v="0" z="3.5" width="0.1" length="0.2"/><vertexLocal u="0" v="4" z="3.5" width="0.1" length="0.2"/></polyline></skeleton></object></objects>)");
+      <polyline id="1"><vertexRoad s="50" t="-5" dz="0" radius="0.15"/><vertexRoad s="50" t="-5" dz="4" radius="0.1"/>
+        </polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="3.5" width="0.1" length="0.2"/>
+        <vertexLocal u="0" v="4" z="3.5" width="0.1" length="0.2"/></polyline></skeleton></object></objects>)");
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
@@ -332,7 +351,9 @@ TEST(StaticObjects, AMastIsItsSkeleton) {
 // A wall beside half a circle, said to leave the road's line: straight from its beginning to its end.
 TEST(StaticObjects, ARailThatLeavesTheRoadsLineIsStraight) {
   const auto world = WorldWith(
-      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object></objects>)",
+      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3">
+          <repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object>
+          </objects>)",
       "<arc curvature=\"0.02\"/>", 150.0);
   ASSERT_NE(world, nullptr);
   const StaticObjects things(*world);

@@ -27,7 +27,8 @@ roads:
       lanes: [{id: -1, width_m: 3.25, speed_limit_kmh: 70}, {id: 1, width_m: 3.25, speed_limit_kmh: 70}]
       surface: asphalt
       crossfall: {kind: crown, fall: 0.02}
-      shoulders: {left: {width_m: 0.5, surface: asphalt, fall: 0.02}, right: {width_m: 0.5, surface: gravel, fall: 0.04}}
+      shoulders: {left: {width_m: 0.5, surface: asphalt, fall: 0.02}, right: {width_m: 0.5, surface: gravel,
+        fall: 0.04}}
       verge: {width_m: 1.5, fall: 0.06, surface: grass}
       blend_m: 6
     marks:

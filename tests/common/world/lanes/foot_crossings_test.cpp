@@ -55,13 +55,15 @@ TEST(FootCrossings, AnObjectLiesSquareAcross) {
 
 TEST(FootCrossings, ASignLiesAcrossAllLanes) {
   IsSquare(On(
-      R"(<signals><signal s="50" t="-4" id="1" dynamic="no" orientation="+" zOffset="2" type="293" subtype="-1" country="DE"/></signals>)"));
+      R"(<signals><signal s="50" t="-4" id="1" dynamic="no" orientation="+" zOffset="2" type="293" subtype="-1"
+          country="DE"/></signals>)"));
 }
 
 TEST(FootCrossings, AnOutlineMayBeSkewed) {
   const auto crossings = On(R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0"><outline>
     <cornerRoad s="46" t="-3.5" dz="0" height="0"/><cornerRoad s="50" t="-3.5" dz="0" height="0"/>
-    <cornerRoad s="54" t="3.5" dz="0" height="0"/><cornerRoad s="50" t="3.5" dz="0" height="0"/></outline></object></objects>)");
+    <cornerRoad s="54" t="3.5" dz="0" height="0"/><cornerRoad s="50" t="3.5" dz="0" height="0"/></outline></object>
+      </objects>)");
   ASSERT_EQ(crossings.size(), 1u);
   EXPECT_NEAR(std::fabs(crossings[0].across_W.x() / crossings[0].across_W.y()), 4.0 / 7.0, 1e-9);
   ASSERT_EQ(crossings[0].passes.size(), 2u);

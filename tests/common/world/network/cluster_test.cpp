@@ -72,10 +72,11 @@ double ShareTogether(const Network& network, double size_m, double wide_m, int c
 RoadText Varied() {
   RoadText road;
   road.length = 140.0;
-  road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40"><line/></geometry>)"
-      R"(<geometry s="40" x="38.2134595650" y="11.8208082664" hdg="0.3" length="40"><spiral curvStart="0" curvEnd="0.02"/></geometry>)"
-      R"(<geometry s="80" x="74.2618295399" y="28.4910729499" hdg="0.7" length="60"><arc curvature="0.02"/></geometry>)";
+  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40"><line/></geometry>)"
+                  R"(<geometry s="40" x="38.2134595650" y="11.8208082664" hdg="0.3" length="40">
+          <spiral curvStart="0" curvEnd="0.02"/></geometry>)"
+                  R"(<geometry s="80" x="74.2618295399" y="28.4910729499" hdg="0.7" length="60"><arc curvature="0.02"/>
+          </geometry>)";
   road.elevation =
       R"(<elevation s="0" a="3" b="0.02" c="0" d="0"/><elevation s="50" a="4" b="0.02" c="-0.0004" d="0.000001"/>)";
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0.01" c="0" d="0"/></lane>)"
@@ -127,7 +128,8 @@ TEST(Cluster, IsItsPointsWhereAPanelEnds) {
     road.geometry =
         R"(<geometry s="0" x="0" y="0" hdg="0" length="40"><spiral curvStart="0" curvEnd="0.1"/></geometry>)"
         R"(<geometry s="40" x="26.7038739265" y="19.9524742268" hdg="2" length="20"><arc curvature="0.1"/></geometry>)"
-        R"(<geometry s="60" x="10.0428747049" y="22.3274420700" hdg="4" length="40"><spiral curvStart="0.1" curvEnd="-0.05"/></geometry>)";
+        R"(<geometry s="60" x="10.0428747049" y="22.3274420700" hdg="4" length="40">
+            <spiral curvStart="0.1" curvEnd="-0.05"/></geometry>)";
     road.length = 100.0;
     road.lateral = lateral;
     road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
@@ -156,7 +158,8 @@ TEST(Cluster, IsItsPointsWhereAPanelEnds) {
 TEST(Cluster, IsItsPointsAtAKink) {
   RoadText road;
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.3" length="50"><line/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50" y="0" hdg="0.3" length="50"><line/></geometry>)";
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
   auto import = opendrive::Read(Document(road.Text()), "sample.xodr", {1.0, 1.0, false});
   ASSERT_TRUE(import.ok()) << import.error().Text();

@@ -23,11 +23,14 @@ std::string Fork() {
   straight.length = 20;
   straight.geometry = R"(<geometry s="0" x="100" y="0" hdg="0" length="20"><line/></geometry>)";
   straight.link =
-      R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="2" contactPoint="start"/>)";
+      R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>
+          <successor elementType="road" elementId="2" contactPoint="start"/>)";
   straight.left =
-      R"(<lane id="1" type="driving"><link><predecessor id="1"/><successor id="1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="1" type="driving"><link><predecessor id="1"/><successor id="1"/></link>
+          <width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
   straight.right =
-      R"(<lane id="-1" type="driving"><link><predecessor id="-1"/><successor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><link><predecessor id="-1"/><successor id="-1"/></link>
+          <width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
   turn.id = "11";
   turn.attributes = "junction=\"9\"";
   turn.length = 30;
@@ -35,12 +38,16 @@ std::string Fork() {
   turn.link = R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>)";
   turn.left = "";
   turn.right =
-      R"(<lane id="-1" type="driving"><link><predecessor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><link><predecessor id="-1"/></link><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          </lane>)";
   return Document(
       in.Text() + out.Text() + straight.Text() + turn.Text() +
-      R"(<junction id="9" name="fork"><connection id="0" incomingRoad="1" connectingRoad="10" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
-                     <connection id="1" incomingRoad="1" connectingRoad="11" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
-                     <connection id="2" incomingRoad="2" connectingRoad="10" contactPoint="end"><laneLink from="1" to="1"/></connection></junction>)");
+      R"(<junction id="9" name="fork"><connection id="0" incomingRoad="1" connectingRoad="10" contactPoint="start">
+          <laneLink from="-1" to="-1"/></connection>
+                     <connection id="1" incomingRoad="1" connectingRoad="11" contactPoint="start">
+                       <laneLink from="-1" to="-1"/></connection>
+                     <connection id="2" incomingRoad="2" connectingRoad="10" contactPoint="end">
+                       <laneLink from="1" to="1"/></connection></junction>)");
 }
 
 TEST(Links, LeadThroughAJunctionAndBack) {

@@ -68,7 +68,8 @@ TEST(Locate, AClosedLoopIsFoundAllRound) {
   RoadText road;  // a circle of 80 m in two halves
   road.length = 160.0 * geometry::kPi;
   road.geometry = fmt::format(
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="{0}"><arc curvature="0.0125"/></geometry><geometry s="{0}" x="0" y="160" hdg="{1}" length="{0}"><arc curvature="0.0125"/></geometry>)",
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="{0}"><arc curvature="0.0125"/></geometry>
+          <geometry s="{0}" x="0" y="160" hdg="{1}" length="{0}"><arc curvature="0.0125"/></geometry>)",
       80.0 * geometry::kPi, geometry::kPi);
   const auto network = MustRead(Document(road.Text()));
   for (std::uint64_t i = 0; i < 5000; ++i) {
@@ -84,7 +85,8 @@ TEST(Locate, AClosedLoopIsFoundAllRound) {
 TEST(Locate, SmallGapsBetweenElementsAreClosed) {
   RoadText road;  // a joint with 4 cm of gap and a kink of 0.9 mrad
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.04" y="0" hdg="0.0009" length="50"><line/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50.04" y="0" hdg="0.0009" length="50"><line/></geometry>)";
   const auto import = opendrive::MustImport(Document(road.Text()));
   EXPECT_EQ(import.warnings.size(), 2u);
   for (const double x : {50.0, 50.01, 50.02, 50.039, 50.041}) {

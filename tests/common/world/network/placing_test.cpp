@@ -34,7 +34,9 @@ Eigen::Vector3d OnCircle(double s_m, double t_m) {
 TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
   RoadText road = Circle();
   road.more =
-      R"(<objects><object id="o" type="tree" s="1" t="1" zOffset="9" radius="2" height="3" hdg="0.25"><repeat s="10" length="40" distance="7" tStart="6" tEnd="8" zOffsetStart="0" zOffsetEnd="1" heightStart="5" heightEnd="9"/></object></objects>)";
+      R"(<objects><object id="o" type="tree" s="1" t="1" zOffset="9" radius="2" height="3" hdg="0.25">
+          <repeat s="10" length="40" distance="7" tStart="6" tEnd="8" zOffsetStart="0" zOffsetEnd="1" heightStart="5"
+          heightEnd="9"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   EXPECT_TRUE(furniture.runs.empty());
@@ -57,7 +59,9 @@ TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
 TEST(Placing, ARowThatLeavesTheRoadsLineStandsOnItsChord) {
   RoadText road = Circle();
   road.more =
-      R"(<objects><object id="o" type="tree" s="1" t="1" height="3" hdg="0.25"><repeat s="10" length="40" distance="8" tStart="6" tEnd="-4" detachFromReferenceLine="true"/></object></objects>)";
+      R"(<objects><object id="o" type="tree" s="1" t="1" height="3" hdg="0.25">
+          <repeat s="10" length="40" distance="8" tStart="6" tEnd="-4" detachFromReferenceLine="true"/></object>
+          </objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 6u);
@@ -76,8 +80,10 @@ TEST(Placing, ARowThatLeavesTheRoadsLineStandsOnItsChord) {
 TEST(Placing, ARunThatLeavesTheRoadsLineIsItsChord) {
   RoadText road = Circle();
   road.more =
-      R"(<objects><object id="o" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" detachFromReferenceLine="true"/></object>
-    <object id="q" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6"/></object></objects>)";
+      R"(<objects><object id="o" type="barrier" s="1" t="1" height="1">
+          <repeat s="10" length="40" distance="0" tStart="6" tEnd="6" detachFromReferenceLine="true"/></object>
+    <object id="q" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6"/>
+      </object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.runs.size(), 2u);
@@ -99,9 +105,13 @@ TEST(Placing, ARunThatLeavesTheRoadsLineIsItsChord) {
 TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
   RoadText road = Circle();
   road.more =
-      R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>
-    <object id="p" type="tree" s="1" t="1" radius="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" radiusStart="1" radiusEnd="3"/></object>
-    <object id="q" type="pole" s="1" t="1" radius="0.2" height="3"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" radiusStart="0.1" radiusEnd="0.3"/></object></objects>)";
+      R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3">
+          <repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>
+    <object id="p" type="tree" s="1" t="1" radius="2" height="3">
+      <repeat s="10" length="40" distance="20" tStart="6" tEnd="6" radiusStart="1" radiusEnd="3"/></object>
+    <object id="q" type="pole" s="1" t="1" radius="0.2" height="3">
+      <repeat s="10" length="40" distance="0" tStart="6" tEnd="6" radiusStart="0.1" radiusEnd="0.3"/></object>
+      </objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 6u);
@@ -118,8 +128,10 @@ TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
 TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
   RoadText road;
   road.more =
-      R"(<objects><object id="a" type="pole" s="0" t="5" height="1"><repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
-    <object id="b" type="pole" s="0" t="5" height="1"><repeat s="90" length="40" distance="5" tStart="5" tEnd="5"/></object></objects>)";
+      R"(<objects><object id="a" type="pole" s="0" t="5" height="1">
+          <repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
+    <object id="b" type="pole" s="0" t="5" height="1"><repeat s="90" length="40" distance="5" tStart="5" tEnd="5"/>
+      </object></objects>)";
   const Furniture furniture = PlaceFurniture(*MustRead(Document(road.Text())));
   ASSERT_EQ(furniture.things.size(), 4u + 3u);  // 0, 0.3, 0.6, 0.9; 90, 95, 100
   EXPECT_NEAR(furniture.things[3].s_m, 0.9, 1e-12);
@@ -129,7 +141,9 @@ TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
 TEST(Placing, ARailGoesOnToTheRoadsEndAtMost) {
   RoadText road;
   road.more =
-      R"(<objects><object id="a" type="barrier" s="0" t="5" height="0.7" width="0.3"><repeat s="60" length="80" distance="0" tStart="4" tEnd="6" zOffsetStart="0" zOffsetEnd="0.8"/></object></objects>)";
+      R"(<objects><object id="a" type="barrier" s="0" t="5" height="0.7" width="0.3">
+          <repeat s="60" length="80" distance="0" tStart="4" tEnd="6" zOffsetStart="0" zOffsetEnd="0.8"/></object>
+          </objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   EXPECT_TRUE(furniture.things.empty());
@@ -147,9 +161,12 @@ TEST(Placing, ARailGoesOnToTheRoadsEndAtMost) {
 TEST(Placing, FacesLookAgainstTheTrafficThatTheyAreFor) {
   RoadText road = Circle();
   road.more =
-      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
-    <signal id="b" s="30" t="5" zOffset="2" orientation="-" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
-    <signal id="c" s="30" t="5" zOffset="2" orientation="none" dynamic="no" type="274" subtype="-1" country="DE"/></signals>)";
+      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1"
+          country="DE" hOffset="0.1"/>
+    <signal id="b" s="30" t="5" zOffset="2" orientation="-" dynamic="no" type="274" subtype="-1" country="DE"
+      hOffset="0.1"/>
+    <signal id="c" s="30" t="5" zOffset="2" orientation="none" dynamic="no" type="274" subtype="-1" country="DE"/>
+      </signals>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 3u);
@@ -175,9 +192,12 @@ TEST(Placing, ASignIsSeenWhereItSays) {
   other.id = "2";
   other.geometry = R"(<geometry s="0" x="500" y="0" hdg="1.5707963267948966" length="100"><line/></geometry>)";
   road.more =
-      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="40" t="-6" zOffset="1" hOffset="0.1"/></signal>
-    <signal id="b" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionInertial x="31" y="32" z="12.5" hdg="0.7"/></signal>
-    <signal id="c" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="9" s="40" t="-6"/></signal></signals>)";
+      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1"
+          country="DE"><positionRoad roadId="2" s="40" t="-6" zOffset="1" hOffset="0.1"/></signal>
+    <signal id="b" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE">
+      <positionInertial x="31" y="32" z="12.5" hdg="0.7"/></signal>
+    <signal id="c" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE">
+      <positionRoad roadId="9" s="40" t="-6"/></signal></signals>)";
   const auto network = MustRead(Document(road.Text() + other.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 3u);
@@ -204,8 +224,10 @@ TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {
   two.id = "2";
   two.geometry = R"(<geometry s="0" x="0" y="500" hdg="0" length="100"><line/></geometry>)";
   one.more = two.more =
-      R"(<objects><object id="z" type="pole" s="80" t="5" height="1"/><object id="a" type="pole" s="8" t="5" height="1"/></objects>
-    <signals><signal id="s" s="50" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"/></signals>)";
+      R"(<objects><object id="z" type="pole" s="80" t="5" height="1"/>
+          <object id="a" type="pole" s="8" t="5" height="1"/></objects>
+    <signals><signal id="s" s="50" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1"
+      country="DE"/></signals>)";
   const auto network = MustRead(Document(one.Text() + two.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   std::string order;
@@ -219,11 +241,15 @@ TEST(Placing, SignalsAreForTheTrafficOfTheirLanes) {
   RoadText road = Circle(), other;
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
   road.right =
-      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>
+          <lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
   road.more =
-      R"(<signals><signal id="along" s="60" t="-8" type="274" orientation="+"/><signal id="against" s="20" t="5" type="274" orientation="-"/><signal id="all" s="40" t="5" type="276" orientation="none"/>
+      R"(<signals><signal id="along" s="60" t="-8" type="274" orientation="+"/>
+          <signal id="against" s="20" t="5" type="274" orientation="-"/>
+          <signal id="all" s="40" t="5" type="276" orientation="none"/>
       <signal id="second" s="10" t="-8" type="101" orientation="+"><validity fromLane="-2" toLane="-2"/></signal>
-      <signalReference s="30" t="0" id="there" orientation="+"/><signalReference s="35" t="0" id="nowhere" orientation="+"/></signals>)";
+      <signalReference s="30" t="0" id="there" orientation="+"/>
+        <signalReference s="35" t="0" id="nowhere" orientation="+"/></signals>)";
   other.id = "2";
   other.geometry = R"(<geometry s="0" x="500" y="500" hdg="0" length="100"><line/></geometry>)";
   other.more = R"(<signals><signal id="there" s="5" t="5" type="206" orientation="-"/></signals>)";

@@ -58,7 +58,8 @@ TEST(Surface, LevelLanesAndLaneHeights) {
   RoadText road;
   road.lateral = R"(<superelevation s="0" a="0.1" b="0" c="0" d="0"/>)";
   road.left =
-      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="0.12" outer="0.16"/></lane>
+      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/>
+          <height sOffset="0" inner="0.12" outer="0.16"/></lane>
                  <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
   const auto network = MustRead(Document(road.Text()));
   const Road& on = network->roads()[0];
@@ -73,8 +74,10 @@ TEST(Surface, LevelLanesAndLaneHeights) {
 TEST(Surface, ShapesCrossfallsAndStrips) {
   RoadText road;  // the crown of the standard's own example, on one half of the road growing to double height
   road.lateral =
-      R"(<shape s="0" t="-4" a="0" b="0" c="0" d="0"/><shape s="0" t="-3" a="0" b="0.15" c="0" d="0"/><shape s="0" t="0" a="0.45" b="-0.1" c="0" d="0"/>
-                    <shape s="100" t="-4" a="0" b="0" c="0" d="0"/><shape s="100" t="-3" a="0" b="0.3" c="0" d="0"/><shape s="100" t="0" a="0.9" b="-0.2" c="0" d="0"/>)";
+      R"(<shape s="0" t="-4" a="0" b="0" c="0" d="0"/><shape s="0" t="-3" a="0" b="0.15" c="0" d="0"/>
+          <shape s="0" t="0" a="0.45" b="-0.1" c="0" d="0"/>
+                    <shape s="100" t="-4" a="0" b="0" c="0" d="0"/><shape s="100" t="-3" a="0" b="0.3" c="0" d="0"/>
+                      <shape s="100" t="0" a="0.9" b="-0.2" c="0" d="0"/>)";
   auto network = MustRead(Document(road.Text()));
   EXPECT_NEAR(network->roads()[0].Surface(0.0, -3.4).p_W.z(), 0.0, 1e-12);
   EXPECT_NEAR(network->roads()[0].Surface(0.0, -1.0).p_W.z(), 0.3, 1e-12);
@@ -82,16 +85,19 @@ TEST(Surface, ShapesCrossfallsAndStrips) {
   EXPECT_NEAR(network->roads()[0].Surface(100.0, 2.0).p_W.z(), 0.5, 1e-12);
 
   road.lateral =
-      R"(<crossfall side="left" s="0" a="0.02" b="0" c="0" d="0"/><crossfall side="right" s="0" a="-0.03" b="0" c="0" d="0"/>)";
+      R"(<crossfall side="left" s="0" a="0.02" b="0" c="0" d="0"/>
+          <crossfall side="right" s="0" a="-0.03" b="0" c="0" d="0"/>)";
   network = MustRead(Document(road.Text()));
   EXPECT_NEAR(network->roads()[0].Surface(10.0, 3.0).p_W.z(), -3.0 * std::tan(0.02), 1e-12);
   EXPECT_NEAR(network->roads()[0].Surface(10.0, -3.0).p_W.z(), 3.0 * std::tan(0.03), 1e-12);
 
   road.lateral =
       R"(<crossSectionSurface><tOffset><coefficients s="0" a="0.5" b="0" c="0" d="0"/></tOffset><surfaceStrips>
-    <strip id="1" mode="independent"><width><coefficients s="0" a="2" b="0" c="0" d="0"/></width><linear><coefficients s="0" a="-0.02" b="0" c="0" d="0"/></linear></strip>
+    <strip id="1" mode="independent"><width><coefficients s="0" a="2" b="0" c="0" d="0"/></width><linear>
+      <coefficients s="0" a="-0.02" b="0" c="0" d="0"/></linear></strip>
     <strip id="2" mode="relative"><quadratic><coefficients s="0" a="0.1" b="0" c="0" d="0"/></quadratic></strip>
-    <strip id="-1" mode="independent"><constant><coefficients s="0" a="0.3" b="0.001" c="0" d="0"/></constant></strip></surfaceStrips></crossSectionSurface>)";
+    <strip id="-1" mode="independent"><constant><coefficients s="0" a="0.3" b="0.001" c="0" d="0"/></constant></strip>
+      </surfaceStrips></crossSectionSurface>)";
   network = MustRead(Document(road.Text()));
   EXPECT_NEAR(network->roads()[0].Surface(20.0, 1.5).p_W.z(), -0.02, 1e-12);
   EXPECT_NEAR(network->roads()[0].Surface(20.0, 3.5).p_W.z(), -0.04 + 0.1, 1e-12);
@@ -111,7 +117,8 @@ std::string Rich() {
     <crossfall side="both" s="0" a="0.01" b="0.0002" c="0" d="0"/>)";
   road.offset = R"(<laneOffset s="0" a="0.5" b="0.01" c="0" d="0"/>)";
   road.left =
-      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0.01" c="0" d="0"/><height sOffset="0" inner="0.1" outer="0.2"/><height sOffset="50" inner="0.15" outer="0.1"/></lane>
+      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0.01" c="0" d="0"/>
+          <height sOffset="0" inner="0.1" outer="0.2"/><height sOffset="50" inner="0.15" outer="0.1"/></lane>
                  <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0.02" c="-0.0001" d="0"/></lane>)";
   return Document(road.Text());
 }
@@ -246,10 +253,13 @@ TEST(Surface, SpeedLimitsMarksAndMaterialsHoldUntilTheNext) {
   RoadText road;
   road.attributes = "junction=\"-1\" rule=\"LHT\"";
   road.more =
-      R"(<type s="0" type="town"><speed max="50" unit="km/h"/></type><type s="60" type="motorway"><speed max="no limit"/></type>)";
+      R"(<type s="0" type="town"><speed max="50" unit="km/h"/></type><type s="60" type="motorway">
+          <speed max="no limit"/></type>)";
   road.right =
-      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="solid" weight="standard" color="white" width="0.1"/>
-      <roadMark sOffset="30" type="broken" color="yellow" width="0.12"><type name="b"><line length="3" space="6" tOffset="0.1" sOffset="0"/></type></roadMark>
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          <roadMark sOffset="0" type="solid" weight="standard" color="white" width="0.1"/>
+      <roadMark sOffset="30" type="broken" color="yellow" width="0.12"><type name="b">
+        <line length="3" space="6" tOffset="0.1" sOffset="0"/></type></roadMark>
       <material sOffset="20" surface="wet asphalt" friction="0.6"/><speed sOffset="80" max="30" unit="mph"/></lane>)";
   const auto network = MustRead(Document(road.Text()));
   const Road& on = network->roads()[0];

@@ -22,10 +22,13 @@ std::vector<std::string> Said(const Import& import) {
 
 TEST(Boards, SignsAreSignalsAtTheirPlacesOnTheBoard) {
   const Import import = WithSignals(
-      R"(<signal s="40" t="-6" id="534" name="board" dynamic="no" orientation="+" zOffset="2" country="OpenDRIVE" type="staticBoard" subtype="-1" height="2.0" width="1.5">
+      R"(<signal s="40" t="-6" id="534" name="board" dynamic="no" orientation="+" zOffset="2" country="OpenDRIVE"
+          type="staticBoard" subtype="-1" height="2.0" width="1.5">
     <validity fromLane="-2" toLane="-1"/><dependency id="9"/>
-    <staticBoard><sign id="535" country="DE" type="274" subtype="-1" v="-0.5" z="1.5" width="0.5" height="0.5" value="60" unit="km/h"><validity fromLane="-1" toLane="-1"/><signalDependency id="536"/></sign>
-    <sign id="536" country="DE" type="206" subtype="-1" v="0.3" z="0.9" width="0.42" height="0.42"/></staticBoard></signal>)");
+    <staticBoard><sign id="535" country="DE" type="274" subtype="-1" v="-0.5" z="1.5" width="0.5" height="0.5"
+      value="60" unit="km/h"><validity fromLane="-1" toLane="-1"/><signalDependency id="536"/></sign>
+    <sign id="536" country="DE" type="206" subtype="-1" v="0.3" z="0.9" width="0.42" height="0.42"/></staticBoard>
+      </signal>)");
   EXPECT_THAT(Said(import), testing::IsEmpty());
   const auto& signals = import.network->roads()[0].spec().signals;
   ASSERT_EQ(signals.size(), 3u);
@@ -52,8 +55,12 @@ TEST(Boards, SignsAreSignalsAtTheirPlacesOnTheBoard) {
 
 TEST(Boards, DisplaysAreDarkPiecesOfTheirBoards) {
   const Import import = WithSignals(R"(
-    <signal s="40" t="-2" id="1" dynamic="yes" orientation="+" zOffset="5" type="vmsBoard" subtype="-1" height="1.5" width="1.5"><vmsBoard displayType="colorGraphics" displayHeight="1.5" displayWidth="1.5" v="0" z="0"><displayArea index="1" v="0" z="0" width="1.4" height="1.4"/></vmsBoard></signal>
-    <signal s="60" t="-2" id="2" dynamic="yes" orientation="+" zOffset="5" type="multiBoard" subtype="-1" height="3" width="7.5"><vmsBoard displayType="colorGraphics" displayHeight="2.5" displayWidth="7" v="0.1" z="0.5"/><staticBoard><sign id="3" country="DE" type="206" subtype="-1" v="-3" z="0.1"/></staticBoard></signal>)");
+    <signal s="40" t="-2" id="1" dynamic="yes" orientation="+" zOffset="5" type="vmsBoard" subtype="-1" height="1.5"
+      width="1.5"><vmsBoard displayType="colorGraphics" displayHeight="1.5" displayWidth="1.5" v="0" z="0">
+      <displayArea index="1" v="0" z="0" width="1.4" height="1.4"/></vmsBoard></signal>
+    <signal s="60" t="-2" id="2" dynamic="yes" orientation="+" zOffset="5" type="multiBoard" subtype="-1" height="3"
+      width="7.5"><vmsBoard displayType="colorGraphics" displayHeight="2.5" displayWidth="7" v="0.1" z="0.5"/>
+      <staticBoard><sign id="3" country="DE" type="206" subtype="-1" v="-3" z="0.1"/></staticBoard></signal>)");
   EXPECT_THAT(Said(import), testing::IsEmpty());
   const auto& signals = import.network->roads()[0].spec().signals;
   ASSERT_EQ(signals.size(), 4u);
@@ -70,7 +77,9 @@ TEST(Boards, DisplaysAreDarkPiecesOfTheirBoards) {
 // Files that say nothing of a board's type or measures: what is on it needs something to be on.
 TEST(Boards, ABoardIsOneByWhatIsOnItAndAsLarge) {
   const Import import = WithSignals(
-      R"(<signal s="40" t="-6" id="1" dynamic="no" orientation="+" type="-1" subtype="-1"><staticBoard><sign id="2" country="DE" type="206" subtype="-1" v="0.75" z="1.0" width="0.5" height="0.4"/><sign id="3" country="DE" type="205" subtype="-1" v="-0.2" z="0"/></staticBoard></signal>)");
+      R"(<signal s="40" t="-6" id="1" dynamic="no" orientation="+" type="-1" subtype="-1"><staticBoard>
+          <sign id="2" country="DE" type="206" subtype="-1" v="0.75" z="1.0" width="0.5" height="0.4"/>
+          <sign id="3" country="DE" type="205" subtype="-1" v="-0.2" z="0"/></staticBoard></signal>)");
   const auto& signals = import.network->roads()[0].spec().signals;
   ASSERT_EQ(signals.size(), 3u);
   EXPECT_TRUE(network::IsBoard(signals[0]));

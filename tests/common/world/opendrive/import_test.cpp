@@ -66,7 +66,8 @@ TEST(OpenDrive, EveryInvalidFileIsRefusedByItsRule) {
 TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {
   RoadText road;
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.0015" y="0" hdg="0.0005" length="50"><line/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50.0015" y="0" hdg="0.0005" length="50"><line/></geometry>)";
   const auto import = MustImport(Document(road.Text()));
   ASSERT_EQ(import.warnings.size(), 2u);
   EXPECT_EQ(import.warnings[0].Text(),
@@ -76,7 +77,8 @@ TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {
               testing::ElementsAre(HasSubstr("road.geometry.contact_point: road 1, s 50"),
                                    HasSubstr("road.geometry.contact_heading: road 1, s 50")));
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50.051" y="0" hdg="0" length="50"><line/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50.051" y="0" hdg="0" length="50"><line/></geometry>)";
   EXPECT_THAT(Errors(Document(road.Text())), testing::ElementsAre(HasSubstr("a gap of 0.051 m")));
 }
 
@@ -88,7 +90,8 @@ TEST(OpenDrive, ACubicsLengthIsHeldAgainstItsCurves) {
     RoadText road;
     road.length = said;
     road.geometry = fmt::format(
-        R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><paramPoly3 pRange="normalized" aU="0" bU="60" cU="0" dU="0" aV="0" bV="0" cV="18" dV="0"/></geometry>)",
+        R"(<geometry s="0" x="0" y="0" hdg="0" length="{}">
+            <paramPoly3 pRange="normalized" aU="0" bU="60" cU="0" dU="0" aV="0" bV="0" cV="18" dV="0"/></geometry>)",
         said);
     return Document(road.Text());
   };
@@ -163,10 +166,12 @@ TEST(OpenDrive, JunctionsNameWhatIsMissing) {
   RoadText way, incoming;
   incoming.id = "7";
   way.attributes = "junction=\"5\"";
-  const auto errors = Errors(Document(
-      incoming.Text() + way.Text() +
-      R"(<junction id="5"><connection id="0" incomingRoad="7" connectingRoad="1" contactPoint="start"><laneLink from="-4" to="-9"/></connection>
-                                         <connection id="1" incomingRoad="8" connectingRoad="1" contactPoint="start"/></junction>)"));
+  const auto errors =
+      Errors(Document(incoming.Text() + way.Text() +
+                      R"(<junction id="5"><connection id="0" incomingRoad="7" connectingRoad="1" contactPoint="start">
+          <laneLink from="-4" to="-9"/></connection>
+                                         <connection id="1" incomingRoad="8" connectingRoad="1" contactPoint="start"/>
+                                        </junction>)"));
   EXPECT_THAT(errors, testing::UnorderedElementsAre(
                           HasSubstr("connection 1 of junction 5 names the road '8', which is not in the file"),
                           HasSubstr("road 1, lane -9, s 0: connection 0 of junction 5 leads to this lane"),
@@ -176,10 +181,13 @@ TEST(OpenDrive, JunctionsNameWhatIsMissing) {
 TEST(OpenDrive, SignalsObjectsAndTheRestAreKept) {
   RoadText road;
   road.more =
-      R"(<objects><object id="o" type="tree" s="10" t="8" zOffset="0.5" radius="1.5" height="6"><repeat s="10" length="40" distance="10" tStart="8" tEnd="9" heightStart="5" heightEnd="6"/>
-      <outlines><outline closed="true"><cornerLocal u="1" v="2" z="3" height="4"/></outline></outlines><validity fromLane="1" toLane="-1"/></object>
+      R"(<objects><object id="o" type="tree" s="10" t="8" zOffset="0.5" radius="1.5" height="6">
+          <repeat s="10" length="40" distance="10" tStart="8" tEnd="9" heightStart="5" heightEnd="6"/>
+      <outlines><outline closed="true"><cornerLocal u="1" v="2" z="3" height="4"/></outline></outlines>
+        <validity fromLane="1" toLane="-1"/></object>
       <tunnel id="t" s="20" length="30" type="standard"/><bridge id="b" s="60" length="10" type="steel"/></objects>
-      <signals><signal id="294" s="90" t="-5" type="274" subtype="50" country="DE" value="50" unit="km/h" orientation="+" dynamic="no" hOffset="0.1"><validity fromLane="-1" toLane="-1"/></signal>
+      <signals><signal id="294" s="90" t="-5" type="274" subtype="50" country="DE" value="50" unit="km/h"
+        orientation="+" dynamic="no" hOffset="0.1"><validity fromLane="-1" toLane="-1"/></signal>
       <signalReference s="1" t="2" id="294" orientation="-"/></signals>
       <surface><CRG file="a.crg" sStart="10" sEnd="20" orientation="opposite" mode="genuine" zScale="2"/></surface>)";
   std::string text =
@@ -215,11 +223,13 @@ TEST(OpenDrive, SignalsObjectsAndTheRestAreKept) {
 TEST(OpenDrive, ReferencesDependenciesAndPermissionsAreKept) {
   RoadText road;
   road.right =
-      R"(<lane id="-1" type="driving" direction="reversed"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><access sOffset="20" rule="deny" restriction="trucks"/>
+      R"(<lane id="-1" type="driving" direction="reversed"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          <access sOffset="20" rule="deny" restriction="trucks"/>
       <access sOffset="60" rule="allow"><restriction type="bus"/><restriction type="taxi"/></access></lane>
       <lane id="-2" type="driving" direction="both"><width sOffset="0" a="3" b="0" c="0" d="0"/></lane>)";
   road.more = R"(<objects><objectReference s="30" t="-6" id="wall" orientation="+"/></objects>
-      <signals><signal id="main" s="90" t="-5" type="1000001"/><signal id="arrow" s="90" t="-5" type="1000011"><dependency id="main" type="x"/><dependency id="other"/></signal></signals>)";
+      <signals><signal id="main" s="90" t="-5" type="1000001"/><signal id="arrow" s="90" t="-5" type="1000011">
+        <dependency id="main" type="x"/><dependency id="other"/></signal></signals>)";
   const auto network = MustRead(Document(road.Text()));
   const network::RoadSpec& spec = network->roads()[0].spec();
   ASSERT_EQ(spec.object_references.size(), 1u);
@@ -255,20 +265,20 @@ TEST(OpenDrive, RulesOfAccessAtOnePlaceAreOne) {
   EXPECT_THAT(buses.access[0].restrictions, testing::ElementsAre("bus", "taxi"));
   EXPECT_THAT(nothing, testing::IsEmpty());
   EXPECT_FALSE(network::OpenToCars(buses));
-  EXPECT_FALSE(network::OpenToCars(
-      lane(
-          R"(<access sOffset="0" rule="deny" restriction="truck"/><access sOffset="0" rule="deny" restriction="passengerCar"/>)")
-          .first));
-  for (
-      const char* open :
-      {"", R"(<access sOffset="0" rule="deny" restriction="truck"/>)",
-       R"(<access sOffset="0" rule="allow" restriction="passengerCar"/><access sOffset="0" rule="allow" restriction="bus"/>)",
-       R"(<access sOffset="0" restriction="simulator"/>)"}) {
+  EXPECT_FALSE(network::OpenToCars(lane(
+                                       R"(<access sOffset="0" rule="deny" restriction="truck"/>
+              <access sOffset="0" rule="deny" restriction="passengerCar"/>)")
+                                       .first));
+  for (const char* open : {"", R"(<access sOffset="0" rule="deny" restriction="truck"/>)",
+                           R"(<access sOffset="0" rule="allow" restriction="passengerCar"/>
+           <access sOffset="0" rule="allow" restriction="bus"/>)",
+                           R"(<access sOffset="0" restriction="simulator"/>)"}) {
     EXPECT_TRUE(network::OpenToCars(lane(open).first)) << open;
   }
   EXPECT_THAT(
       lane(
-          R"(<access sOffset="10" rule="allow" restriction="bus"/><access sOffset="10" rule="deny" restriction="taxi"/>)")
+          R"(<access sOffset="10" rule="allow" restriction="bus"/>
+              <access sOffset="10" rule="deny" restriction="taxi"/>)")
           .second,
       testing::ElementsAre("road.lane.access.no_mix_of_deny_or_allow: road 1, lane -1, s 10: at one place the lane has "
                            "a rule 'allow' and a rule 'deny': the second counts"));
@@ -278,7 +288,8 @@ TEST(OpenDrive, RulesOfAccessAtOnePlaceAreOne) {
 TEST(OpenDrive, AMarkSwaysAboutItsEdge) {
   RoadText road;
   road.right =
-      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="20" type="solid" color="white" width="0.12">
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          <roadMark sOffset="20" type="solid" color="white" width="0.12">
       <sway ds="0" a="0" b="0.01" c="0" d="0"/><sway ds="30" a="0.3" b="0" c="0" d="0"/></roadMark></lane>)";
   const auto network = MustRead(Document(road.Text()));
   const auto markings = network::MarkingsOf(network->roads()[0]);
@@ -309,7 +320,8 @@ TEST(OpenDrive, PolynomialsBorderAndOldSpellings) {
   }
   road = RoadText();
   road.right =
-      R"(<lane id="-1" type="driving"><border sOffset="0" a="-3" b="0" c="0" d="0"/></lane><lane id="-2" type="shoulder"><border sOffset="0" a="4.5" b="0.01" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><border sOffset="0" a="-3" b="0" c="0" d="0"/></lane>
+          <lane id="-2" type="shoulder"><border sOffset="0" a="4.5" b="0.01" c="0" d="0"/></lane>)";
   const auto network = MustRead(Document(road.Text()));
   EXPECT_EQ(network->Span({0, 0, -1}, 50.0)->outer_t_m, -3.0);
   EXPECT_NEAR(network->Span({0, 0, -2}, 50.0)->outer_t_m, -5.0, 1e-12);
@@ -359,11 +371,16 @@ TEST(OpenDrive, ASignThatIsNotKnownIsTold) {
 TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
   RoadText road;
   road.more =
-      R"(<objects><object id="7" type="parkingSpace" s="10" t="8" length="5" width="2.5"><outline><cornerLocal id="a" u="0" v="0"/><cornerLocal id="b" u="5" v="0"/></outline>
-      <markings><marking side="left" color="yellow" width="0.12" lineLength="1" spaceLength="0.5" startOffset="0.2" stopOffset="0.3"/><marking side="lef" width="0.1"/>
-      <marking width="0.1"><cornerReference id="a"/><cornerReference id="b"/></marking><marking width="0.1"><cornerReference id="a"/><cornerReference id="c"/></marking>
-      <marking width="0.1"><cornerReference id="a"/></marking><marking side="rear" width="0.1" stopOffset="-1e12"/></markings></object></objects>
-      <signals><signal id="1" s="5" t="-4" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="1" t="2"/></signal></signals>)";
+      R"(<objects><object id="7" type="parkingSpace" s="10" t="8" length="5" width="2.5"><outline>
+          <cornerLocal id="a" u="0" v="0"/><cornerLocal id="b" u="5" v="0"/></outline>
+      <markings><marking side="left" color="yellow" width="0.12" lineLength="1" spaceLength="0.5" startOffset="0.2"
+        stopOffset="0.3"/><marking side="lef" width="0.1"/>
+      <marking width="0.1"><cornerReference id="a"/><cornerReference id="b"/></marking><marking width="0.1">
+        <cornerReference id="a"/><cornerReference id="c"/></marking>
+      <marking width="0.1"><cornerReference id="a"/></marking><marking side="rear" width="0.1" stopOffset="-1e12"/>
+        </markings></object></objects>
+      <signals><signal id="1" s="5" t="-4" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="1" t="2"/>
+        </signal></signals>)";
   const Import import = MustImport(Document(road.Text()));
   std::vector<std::string> said;
   for (const Finding& warning : import.warnings) said.push_back(warning.Text());
@@ -393,13 +410,22 @@ TEST(OpenDrive, MarksOfObjectsAndPlacesOfSignsThatCannotBeAreTold) {
 TEST(OpenDrive, FramesFillingsSkeletonsAndMaterialsAreRead) {
   RoadText road;
   road.more = R"(<objects>
-    <object id="i" type="trafficIsland" s="10" t="8"><outlines><outline id="3" fillType="grass"><cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/><cornerLocal id="2" u="5" v="2"/></outline></outlines>
-      <borders><border outlineId="3" type="curb" width="0.15" useCompleteOutline="true"/><border outlineId="3" type="concrete" width="0.3" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/></border></borders></object>
-    <object id="p" type="parkingSpace" s="20" t="8"><material surface="asphalt" friction="0.7" roadMarkColor="yellow"/><parkingSpace access="handicapped" restrictions="till 8"/></object>
-    <object id="r" type="streetLamp" s="1" t="8"><repeat s="1" length="9" distance="3" detachFromReferenceLine="true"/></object>
-    <object id="m" type="pole" s="30" t="8"><skeleton><polyline id="1"><vertexRoad s="30" t="8" dz="0" radius="0.15"/><vertexRoad s="30" t="8" dz="4" radius="0.1"/></polyline>
-      <polyline id="2"><vertexLocal u="0" v="0" z="3" width="0.2" length="0.1"/><vertexLocal u="0" v="-2" z="3.5" width="0.2" length="0.1"/></polyline></skeleton></object></objects>
-    <signals><signal id="1" s="5" t="-4" type="r1-1" subtype="-1" country="US"><semantics><priority type="stop"/></semantics></signal></signals>)";
+    <object id="i" type="trafficIsland" s="10" t="8"><outlines><outline id="3" fillType="grass">
+      <cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/><cornerLocal id="2" u="5" v="2"/></outline>
+      </outlines>
+      <borders><border outlineId="3" type="curb" width="0.15" useCompleteOutline="true"/>
+        <border outlineId="3" type="concrete" width="0.3" useCompleteOutline="false"><cornerReference id="0"/>
+        <cornerReference id="1"/></border></borders></object>
+    <object id="p" type="parkingSpace" s="20" t="8"><material surface="asphalt" friction="0.7" roadMarkColor="yellow"/>
+      <parkingSpace access="handicapped" restrictions="till 8"/></object>
+    <object id="r" type="streetLamp" s="1" t="8"><repeat s="1" length="9" distance="3" detachFromReferenceLine="true"/>
+      </object>
+    <object id="m" type="pole" s="30" t="8"><skeleton><polyline id="1"><vertexRoad s="30" t="8" dz="0" radius="0.15"/>
+      <vertexRoad s="30" t="8" dz="4" radius="0.1"/></polyline>
+      <polyline id="2"><vertexLocal u="0" v="0" z="3" width="0.2" length="0.1"/>
+        <vertexLocal u="0" v="-2" z="3.5" width="0.2" length="0.1"/></polyline></skeleton></object></objects>
+    <signals><signal id="1" s="5" t="-4" type="r1-1" subtype="-1" country="US"><semantics><priority type="stop"/>
+      </semantics></signal></signals>)";
   const Import import = MustImport(Document(road.Text()));
   ASSERT_EQ(import.warnings.size(), 1u);  // the plate's unknown face
   const network::RoadSpec& spec = import.network->roads()[0].spec();
@@ -431,13 +457,21 @@ TEST(OpenDrive, FramesFillingsSkeletonsAndMaterialsAreRead) {
 TEST(OpenDrive, FramesAndSkeletonsThatCannotBeAreTold) {
   RoadText road;
   const std::string corners =
-      R"(<outlines><outline id="0"><cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/><cornerLocal id="2" u="5" v="2"/></outline></outlines>)";
+      R"(<outlines><outline id="0"><cornerLocal id="0" u="0" v="0"/><cornerLocal id="1" u="5" v="0"/>
+          <cornerLocal id="2" u="5" v="2"/></outline></outlines>)";
   road.more = "<objects><object id=\"i\" type=\"trafficIsland\" s=\"10\" t=\"8\">" + corners +
               R"(<borders><border outlineId="1" type="curb" width="0.15"/><border outlineId="0" type="curb" width="0"/>
-      <border outlineId="0" type="kurb" width="0.1"/><border outlineId="0" type="curb" width="0.1" useCompleteOutline="false"><cornerReference id="0"/></border><border outlineId="0" type="curb" width="0.1" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="9"/></border>
+      <border outlineId="0" type="kurb" width="0.1"/><border outlineId="0" type="curb" width="0.1"
+        useCompleteOutline="false"><cornerReference id="0"/></border>
+        <border outlineId="0" type="curb" width="0.1" useCompleteOutline="false"><cornerReference id="0"/>
+        <cornerReference id="9"/></border>
       <border outlineId="0" type="curb" width="0.1"><cornerReference id="0"/></border></borders>
-      <skeleton><polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/></polyline><polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexLocal u="0" v="0" z="1" width="0.1" length="0.1"/></polyline>
-      <polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexRoad s="10" t="8" dz="1" radius="0.1"/></polyline><polyline><vertexLocal u="0" v="0" z="0"/><vertexLocal u="0" v="0" z="1"/></polyline></skeleton></object></objects>)";
+      <skeleton><polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/></polyline><polyline>
+        <vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexLocal u="0" v="0" z="1" width="0.1" length="0.1"/>
+        </polyline>
+      <polyline><vertexLocal u="0" v="0" z="0" radius="0.1"/><vertexRoad s="10" t="8" dz="1" radius="0.1"/></polyline>
+        <polyline><vertexLocal u="0" v="0" z="0"/><vertexLocal u="0" v="0" z="1"/></polyline></skeleton></object>
+        </objects>)";
   const Import import = MustImport(Document(road.Text()));
   std::vector<std::string> said;
   for (const Finding& warning : import.warnings) said.push_back(warning.Text());

@@ -129,7 +129,8 @@ TEST(Joints, ALaneThatFoldsInABendIsNamedWithItsStation) {
   // A clothoid from none to 1 / 3 m over 6 m: 3.5 m beside it the edge folds where k * 3.5 > 0.95, from s = 4.886 m on,
   // first seen at 5.5 m.
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="6"><spiral curvStart="0" curvEnd="-0.33333333333333333"/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="6"><spiral curvStart="0" curvEnd="-0.33333333333333333"/>
+          </geometry>)";
   EXPECT_THAT(
       Of(Document(road.Text())).warnings,
       ElementsAre(HasSubstr("road 1, s 5.5: the edge of the lanes that are driven on 3.50 m to the right folds")));
@@ -158,7 +159,8 @@ TEST(Joints, CurvatureThatJumpsIsToldOnceARoad) {
   b.id = "2";
   for (RoadText* road : {&a, &b}) {
     road->geometry = fmt::format(
-        R"(<geometry s="0" x="0" y="{0}" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="{0}" hdg="0" length="50"><arc curvature="0.001"/></geometry>)",
+        R"(<geometry s="0" x="0" y="{0}" hdg="0" length="50"><line/></geometry>
+            <geometry s="50" x="50" y="{0}" hdg="0" length="50"><arc curvature="0.001"/></geometry>)",
         road == &a ? 0 : 100);
   }
   EXPECT_THAT(Of(Document(a.Text() + b.Text())).warnings,

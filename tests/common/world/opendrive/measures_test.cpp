@@ -58,7 +58,8 @@ TEST(Measures, AWidthBeyondAllThatIsBuiltIsAnErrorWhereItIs) {
   EXPECT_THAT(
       ErrorsOf([](RoadText& r) {
         r.right = LaneOf(
-            R"(<width sOffset="0" a="3"/><width sOffset="20" a="0" b="4000" c="-160" d="1.6"/><width sOffset="70" a="3"/>)");
+            R"(<width sOffset="0" a="3"/><width sOffset="20" a="0" b="4000" c="-160" d="1.6"/>
+                <width sOffset="70" a="3"/>)");
       }),
       ElementsAre(
           "road.lane.width: road 1, lane -1, s 36.6667: the lane is 29629.6 m wide here; at most 1000 m was expected"));
@@ -114,7 +115,9 @@ TEST(Measures, WhateverMakesAPlaceAbsurdlyFarOrHighIsAnError) {
   EXPECT_THAT(
       ErrorsOf([](RoadText& r) {
         r.lateral =
-            R"(<crossSectionSurface><surfaceStrips><strip id="-1"><constant><coefficients s="0" a="1e9" b="0" c="0" d="0"/></constant></strip></surfaceStrips></crossSectionSurface>)";
+            R"(<crossSectionSurface><surfaceStrips><strip id="-1"><constant>
+                <coefficients s="0" a="1e9" b="0" c="0" d="0"/></constant></strip></surfaceStrips>
+                </crossSectionSurface>)";
       }),
       ElementsAre(HasSubstr("road.lateral.height: road 1, s 0: the road's surface lies 1e+09 m above its line")));
   EXPECT_THAT(ErrorsOf([](RoadText& r) {
@@ -161,7 +164,8 @@ TEST(Measures, Marks) {
 
 std::string Broken(double length_m, double space_m) {
   return LaneOf(fmt::format(
-      R"(<width sOffset="0" a="3.5"/><roadMark sOffset="0" type="broken" color="white" width="0.12"><type name="x" width="0.1"><line length="{}" space="{}" tOffset="0" sOffset="0"/></type></roadMark>)",
+      R"(<width sOffset="0" a="3.5"/><roadMark sOffset="0" type="broken" color="white" width="0.12">
+          <type name="x" width="0.1"><line length="{}" space="{}" tOffset="0" sOffset="0"/></type></roadMark>)",
       length_m, space_m));
 }
 
@@ -213,20 +217,19 @@ TEST(Measures, Things) {
             R"(<outline><cornerLocal u="1e9" v="0"/><cornerLocal u="0" v="1"/><cornerLocal u="0" v="0"/></outline>)");
       }),
       one("object", "cornerLocal", "u", 1e4));
-  EXPECT_THAT(
-      ErrorsOf([](RoadText& r) {
-        r.more = ObjectOf(
-            "t=\"8\"",
-            R"(<outlines><outline><cornerRoad s="0" t="1e9"/><cornerRoad s="1" t="0"/><cornerRoad s="0" t="0"/></outline></outlines>)");
-      }),
-      one("object", "cornerRoad", "t", 1e4));
-  EXPECT_THAT(
-      ErrorsOf([](RoadText& r) {
-        r.more = ObjectOf(
-            "t=\"8\"",
-            R"(<skeleton><polyline id="0"><vertexLocal u="0" v="0" z="0" radius="1e9"/><vertexLocal u="1" v="0" z="0" radius="1"/></polyline></skeleton>)");
-      }),
-      one("object", "vertexLocal", "radius", 1e4));
+  EXPECT_THAT(ErrorsOf([](RoadText& r) {
+                r.more = ObjectOf(
+                    "t=\"8\"",
+                    R"(<outlines><outline><cornerRoad s="0" t="1e9"/><cornerRoad s="1" t="0"/><cornerRoad s="0" t="0"/>
+                </outline></outlines>)");
+              }),
+              one("object", "cornerRoad", "t", 1e4));
+  EXPECT_THAT(ErrorsOf([](RoadText& r) {
+                r.more = ObjectOf("t=\"8\"",
+                                  R"(<skeleton><polyline id="0"><vertexLocal u="0" v="0" z="0" radius="1e9"/>
+                <vertexLocal u="1" v="0" z="0" radius="1"/></polyline></skeleton>)");
+              }),
+              one("object", "vertexLocal", "radius", 1e4));
   const auto sign = [](const std::string& attributes, const std::string& within = "") {
     return R"(<signals><signal id="s" type="274" country="DE" value="50" s="50" )" + attributes + ">" + within +
            "</signal></signals>";
@@ -262,7 +265,8 @@ TEST(Measures, HeightsOfAJunction) {
       Document(
           RoadText().Text() +
           R"(<junction id="9"><planView><geometry s="0" x="0" y="0" hdg="0" length="100"><line/></geometry></planView>
-<elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1 1e7" right="1"/><elevation center="1" left="1" right="1"/></elevationGrid></junction>)"),
+<elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1 1e7" right="1"/>
+  <elevation center="1" left="1" right="1"/></elevationGrid></junction>)"),
       "sample.xodr", Tolerance::Unrepaired());
   ASSERT_TRUE(import.ok());
   EXPECT_THAT(Texts(import.value().errors),

@@ -64,7 +64,8 @@ TEST(Stations, OfALaneItIsItsSectionThatCounts) {
   RoadText road;
   road.right =
       LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="60" max="10"/>)") +
-      R"(</right></laneSection><laneSection s="50"><left><lane id="1" type="driving"><width sOffset="0" a="3.5"/></lane></left>
+      R"(</right></laneSection><laneSection s="50"><left><lane id="1" type="driving"><width sOffset="0" a="3.5"/>
+          </lane></left>
 <center><lane id="0" type="none"/></center><right>)" +
       LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="40" max="10"/>)");
   EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,

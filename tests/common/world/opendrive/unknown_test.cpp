@@ -72,7 +72,8 @@ TEST(Unknown, EachKindIsSaidOnceWithItsLineAndHowOften) {
 TEST(Unknown, AttributesAndWordsAreLookedAt) {
   RoadText road;
   road.right =
-      R"(<lane id="-1" type="driving" levle="true"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="soild" color="xstandard" laneChange="BOTH"/></lane>)";
+      R"(<lane id="-1" type="driving" levle="true"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          <roadMark sOffset="0" type="soild" color="xstandard" laneChange="BOTH"/></lane>)";
   EXPECT_THAT(
       WarningsOf(Document(road.Text())),
       testing::UnorderedElementsAre(
@@ -107,8 +108,10 @@ TEST(Unknown, WhatMayStandOnceIsRefusedTwice) {
 TEST(Curvature, JumpsAreToldOnceAFile) {
   RoadText road;
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0" length="20"><arc curvature="0.05"/></geometry>)"
-      R"(<geometry s="70" x="66.829419696157930" y="9.193953882637205" hdg="1" length="30"><arc curvature="0.04"/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50" y="0" hdg="0" length="20"><arc curvature="0.05"/></geometry>)"
+      R"(<geometry s="70" x="66.829419696157930" y="9.193953882637205" hdg="1" length="30"><arc curvature="0.04"/>
+          </geometry>)";
   EXPECT_THAT(WarningsOf(Document(road.Text())),
               ElementsAre("road.geometry.curvature: road 1, s 50: the curvature jumps by 0.05000 1/m, the largest of 2 "
                           "jumps of the road"));

@@ -26,20 +26,24 @@ std::string Lane(int id, const std::string& links, const std::string& more = "")
 struct Yard {
   RoadText main, entry, exit, yard;
   std::string junction = R"(<junction id="555" type="virtual" mainRoad="1" sStart="50" sEnd="80" orientation="+">
-    <connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
-    <connection id="1" incomingRoad="99" connectingRoad="4" contactPoint="start"><laneLink from="-1" to="-1"/></connection></junction>)";
+    <connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="-1" to="-1"/>
+      </connection>
+    <connection id="1" incomingRoad="99" connectingRoad="4" contactPoint="start"><laneLink from="-1" to="-1"/>
+      </connection></junction>)";
 
   Yard() {
     const double r = 15.0, quarter = r * std::acos(-1.0) / 2.0;
-    main.right = Lane(
-        -1, "",
-        R"(<roadMark sOffset="0" type="broken" color="white" width="0.12"><type name="dashes" width="0.12"><line length="4" space="8" tOffset="0" sOffset="0" width="0.12"/></type></roadMark>)");
+    main.right =
+        Lane(-1, "",
+             R"(<roadMark sOffset="0" type="broken" color="white" width="0.12"><type name="dashes" width="0.12">
+            <line length="4" space="8" tOffset="0" sOffset="0" width="0.12"/></type></roadMark>)");
     entry.id = "2", entry.length = quarter, entry.attributes = "junction=\"555\"";
     entry.geometry =
         fmt::format("<geometry s=\"0\" x=\"50\" y=\"0\" hdg=\"0\" length=\"{}\"><arc curvature=\"{}\"/></geometry>",
                     quarter, -1.0 / r);
     entry.link =
-        R"(<predecessor elementType="road" elementId="1" elementS="50" elementDir="+"/><successor elementType="road" elementId="99" contactPoint="end"/>)";
+        R"(<predecessor elementType="road" elementId="1" elementS="50" elementDir="+"/>
+            <successor elementType="road" elementId="99" contactPoint="end"/>)";
     entry.left = "", entry.right = Lane(-1, R"(<predecessor id="-1"/><successor id="1"/>)");
     // From the yard's end north to the main road, turning right: it ends at (80, 0) along x.
     exit.id = "4", exit.length = quarter, exit.attributes = "junction=\"555\"";
@@ -47,7 +51,8 @@ struct Yard {
         fmt::format("<geometry s=\"0\" x=\"65\" y=\"-15\" hdg=\"{}\" length=\"{}\"><arc curvature=\"{}\"/></geometry>",
                     std::acos(-1.0) / 2.0, quarter, -1.0 / r);
     exit.link =
-        R"(<predecessor elementType="road" elementId="99" contactPoint="end"/><successor elementType="road" elementId="1" elementS="80" elementDir="+"/>)";
+        R"(<predecessor elementType="road" elementId="99" contactPoint="end"/>
+            <successor elementType="road" elementId="1" elementS="80" elementDir="+"/>)";
     exit.left = "", exit.right = Lane(-1, R"(<predecessor id="-1"/><successor id="-1"/>)");
     yard.id = "99", yard.length = 40.0;
     yard.geometry = fmt::format("<geometry s=\"0\" x=\"65\" y=\"-55\" hdg=\"{}\" length=\"40\"><line/></geometry>",
@@ -134,9 +139,11 @@ TEST(VirtualJunction, AgainstTheMainRoadsS) {
       fmt::format("<geometry s=\"0\" x=\"40\" y=\"0\" hdg=\"{}\" length=\"20\"><line/></geometry>", std::acos(-1.0));
   entry.link = R"(<predecessor elementType="road" elementId="1" elementS="40" elementDir="-"/>)";
   entry.left = "", entry.right = Lane(-1, R"(<predecessor id="1"/>)");
-  const Import import = MustImport(Document(
-      main.Text() + entry.Text() +
-      R"(<junction id="5" type="virtual" mainRoad="1" sStart="40" sEnd="40" orientation="-"><connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="1" to="-1"/></connection></junction>)"));
+  const Import import =
+      MustImport(Document(main.Text() + entry.Text() +
+                          R"(<junction id="5" type="virtual" mainRoad="1" sStart="40" sEnd="40" orientation="-">
+          <connection id="0" incomingRoad="1" connectingRoad="2" contactPoint="start"><laneLink from="1" to="-1"/>
+          </connection></junction>)"));
   EXPECT_THAT(Said(import), testing::IsEmpty());
   EXPECT_THAT(import.network->AtStart({1, 0, -1}), testing::ElementsAre(LaneEnd{{0, 1, 1}, End::kStart}));
 }
@@ -170,7 +177,8 @@ TEST(VirtualJunction, AStationAtTheEndIsTheEnd) {
 struct Path {
   RoadText main, path;
   std::string crossing =
-      R"(<crossPath id="7" crossingRoad="2" roadAtStart="1" roadAtEnd="1"><startLaneLink s="54" from="-2" to="-1"/><endLaneLink s="54" from="2" to="-1"/></crossPath>)";
+      R"(<crossPath id="7" crossingRoad="2" roadAtStart="1" roadAtEnd="1"><startLaneLink s="54" from="-2" to="-1"/>
+          <endLaneLink s="54" from="2" to="-1"/></crossPath>)";
 
   Path() {
     const std::string walk = R"(<width sOffset="0" a="2" b="0" c="0" d="0"/>)";
@@ -241,8 +249,12 @@ TEST(JunctionObjects, StandWhereTheJunctionsLineSays) {
   const std::string things = fmt::format(
       R"(<planView><geometry s="0" x="60" y="-10" hdg="{}" length="10"><line/></geometry></planView><objects>
     <object id="pole" type="pole" s="4" t="-1.5" zOffset="0.25" hdg="0.5" height="3" radius="0.1"/>
-    <object id="island" type="trafficIsland" s="2" t="1" zOffset="0" hdg="0"><outline closed="true"><cornerRoad s="2" t="1" dz="0" height="0.2"/><cornerRoad s="3" t="1" dz="0" height="0.2"/><cornerRoad s="3" t="2" dz="0" height="0.2"/></outline></object>
-    <object id="row" type="pole" s="0" t="0" zOffset="0"><repeat s="0" length="4" distance="2" tStart="0" tEnd="1" zOffsetStart="0" zOffsetEnd="0" heightStart="1" heightEnd="2"/></object></objects>)",
+    <object id="island" type="trafficIsland" s="2" t="1" zOffset="0" hdg="0"><outline closed="true">
+      <cornerRoad s="2" t="1" dz="0" height="0.2"/><cornerRoad s="3" t="1" dz="0" height="0.2"/>
+      <cornerRoad s="3" t="2" dz="0" height="0.2"/></outline></object>
+    <object id="row" type="pole" s="0" t="0" zOffset="0">
+      <repeat s="0" length="4" distance="2" tStart="0" tEnd="1" zOffsetStart="0" zOffsetEnd="0" heightStart="1"
+      heightEnd="2"/></object></objects>)",
       std::acos(-1.0) / 2.0);
   yard.junction.insert(yard.junction.find("</junction>"), things);
   const Import import = MustImport(yard.Text());

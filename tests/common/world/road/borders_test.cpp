@@ -94,7 +94,8 @@ RoadText Bend(bool by_border) {
       R"(<geometry s="0" x="12" y="-7" hdg="0.4" length="100"><spiral curvStart="0.002" curvEnd="0.015"/></geometry>)";
   road.elevation = R"(<elevation s="0" a="3" b="0.04" c="-3e-4" d="0"/>)";
   road.lateral =
-      R"(<superelevation s="0" a="0.01" b="5e-4" c="0" d="0"/><shape s="0" t="-12" a="-0.2" b="0.02" c="0" d="0"/><shape s="0" t="0" a="0.04" b="-0.02" c="0" d="0"/>)";
+      R"(<superelevation s="0" a="0.01" b="5e-4" c="0" d="0"/><shape s="0" t="-12" a="-0.2" b="0.02" c="0" d="0"/>
+          <shape s="0" t="0" a="0.04" b="-0.02" c="0" d="0"/>)";
   road.left = kLeft.Lanes(by_border, 1);
   road.right = kRight.Lanes(by_border, -1);
   return road;
@@ -267,7 +268,9 @@ TEST(BordersToldOf, ABorderWithinTheLaneInsideIsNamedWithRoadLaneAndPlace) {
 TEST(BordersToldOf, WidthsCountWhereALaneHasBoth) {
   RoadText road;
   road.right =
-      R"(<lane id="-1" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/><border sOffset="0" a="-3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="shoulder"><border sOffset="0" a="-5" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3" b="0" c="0" d="0"/>
+          <border sOffset="0" a="-3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="shoulder">
+          <border sOffset="0" a="-5" b="0" c="0" d="0"/></lane>)";
   const auto import = opendrive::MustImport(Document(road.Text()));
   std::vector<std::string> said;
   for (const auto& warning : import.warnings) said.push_back(warning.Text());
@@ -283,7 +286,8 @@ TEST(BordersToldOf, WidthsCountWhereALaneHasBoth) {
 TEST(BordersToldOf, APositiveBorderOnTheRightIsTurned) {
   RoadText road;
   road.right =
-      R"(<lane id="-1" type="driving"><border sOffset="0" a="0" b="0.035" c="0" d="0"/><border sOffset="50" a="1.75" b="0" c="0" d="0"/></lane>)";
+      R"(<lane id="-1" type="driving"><border sOffset="0" a="0" b="0.035" c="0" d="0"/>
+          <border sOffset="50" a="1.75" b="0" c="0" d="0"/></lane>)";
   const auto import = opendrive::MustImport(Document(road.Text()));
   ASSERT_EQ(import.warnings.size(), 1u);
   EXPECT_EQ(import.warnings[0].Text(),

@@ -29,7 +29,8 @@ constexpr const char* kHilly = R"(rodeira: world/2
 name: hilly
 terrain:
   surface: soil
-  generate: {seed: 5, columns: 121, rows: 101, spacing_m: 8, west_m: -120, south_m: -260, below_m: 0.4, flat_m: 6, full_m: 40,
+  generate: {seed: 5, columns: 121, rows: 101, spacing_m: 8, west_m: -120, south_m: -260, below_m: 0.4, flat_m: 6,
+    full_m: 40,
     relief: [{wavelength_m: 110, amplitude_m: 14}, {wavelength_m: 40, amplitude_m: 3}]}
 roads:
   - id: main
@@ -275,10 +276,12 @@ ground: {kind: plane}
 roads:
   - id: a
     start: {x_m: 3000000, y_m: -20, heading_deg: 20}
-    axis: [line: {length_m: 120}, clothoid: {a_m: 90, radius_end_m: 90}, arc: {length_m: 200, radius_m: 90}, clothoid: {a_m: 120, radius_start_m: 90, radius_end_m: -400}]
+    axis: [line: {length_m: 120}, clothoid: {a_m: 90, radius_end_m: 90}, arc: {length_m: 200, radius_m: 90},
+      clothoid: {a_m: 120, radius_start_m: 90, radius_end_m: -400}]
     vertical: [{s_m: 0, z_m: 30}, {s_m: 200, z_m: 38, parabola_m: 140}, {s_m: 400, z_m: 31}]
     section:
-      lanes: [{id: -1, widths: [{s_m: 0, width_m: 3.5}, {s_m: 90, width_m: 3.5}, {s_m: 120, width_m: 4.5}]}, {id: 1, width_m: 3.5}, {id: 2, width_m: 2, material: gravel}]
+      lanes: [{id: -1, widths: [{s_m: 0, width_m: 3.5}, {s_m: 90, width_m: 3.5}, {s_m: 120, width_m: 4.5}]}, {id: 1,
+        width_m: 3.5}, {id: 2, width_m: 2, material: gravel}]
       crossfall: {kind: crown, fall: 0.025}
     lines: [{ts: [{s_m: 0, t_m: 0.5}], kind: dashed, stroke_m: 3, gap_m: 5}]
 )");

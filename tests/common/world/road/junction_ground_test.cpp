@@ -49,14 +49,17 @@ struct Tee {
     west.link = "<successor elementType=\"junction\" elementId=\"5\"/>";
     for (RoadText* road : {&east, &south}) road->link = "<predecessor elementType=\"junction\" elementId=\"5\"/>";
     through.left +=
-        R"(<lane id="2" type="sidewalk"><width sOffset="0" a="0.4" b="0" c="0" d="0"/><height sOffset="0" inner="0.12" outer="0.12"/></lane>)";
+        R"(<lane id="2" type="sidewalk"><width sOffset="0" a="0.4" b="0" c="0" d="0"/>
+            <height sOffset="0" inner="0.12" outer="0.12"/></lane>)";
     through.link =
-        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="2" contactPoint="start"/>)";
+        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>
+            <successor elementType="road" elementId="2" contactPoint="start"/>)";
     turn.geometry =
         fmt::format("<geometry s=\"0\" x=\"-10\" y=\"0\" hdg=\"0\" length=\"{}\"><arc curvature=\"-0.1\"/></geometry>",
                     10.0 * M_PI_2);
     turn.link =
-        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="4" contactPoint="start"/>)";
+        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>
+            <successor elementType="road" elementId="4" contactPoint="start"/>)";
     for (RoadText* road : {&through, &turn, &corner_1, &corner_2}) {
       road->attributes = "junction=\"5\"";
       road->elevation = "<elevation s=\"0\" a=\"9\" b=\"0\" c=\"0\" d=\"0\"/>";
@@ -72,12 +75,16 @@ struct Tee {
     return Document(
         west.Text() + east.Text() + through.Text() + south.Text() + turn.Text() + corner_1.Text() + corner_2.Text() +
         "<junction id=\"5\" " + type + ">" +
-        R"(<connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
-                       <connection id="1" incomingRoad="1" connectingRoad="6" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
-                       <boundary><segment type="joint" roadId="2" contactPoint="start" jointLaneStart="-1" jointLaneEnd="1"/>
+        R"(<connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start"><laneLink from="-1" to="-1"/>
+            </connection>
+                       <connection id="1" incomingRoad="1" connectingRoad="6" contactPoint="start">
+                         <laneLink from="-1" to="-1"/></connection>
+                       <boundary><segment type="joint" roadId="2" contactPoint="start" jointLaneStart="-1"
+                         jointLaneEnd="1"/>
                        <segment type="lane" roadId="3" boundaryLane="1" sStart="end" sEnd="begin"/>)" +
         west_joint + transition + "/>\n" +
-        R"(<segment type="lane" roadId="7" boundaryLane="0" sStart="begin" sEnd="end"/><segment type="joint" roadId="4" contactPoint="start"/>
+        R"(<segment type="lane" roadId="7" boundaryLane="0" sStart="begin" sEnd="end"/>
+            <segment type="joint" roadId="4" contactPoint="start"/>
                        <segment type="lane" roadId="8" boundaryLane="0" sStart="0" sEnd="end"/></boundary>)" +
         plan + "<elevationGrid sStart=\"0\" gridSpacing=\"4\">\n" + grid + "</elevationGrid></junction>\n");
   }

@@ -265,12 +265,22 @@ TEST(Laid, PatchesOfOpenDriveHaveTheirFriction) {
     EXPECT_EQ(ours->At(x, y).surface, again->At(x, y).surface) << x << " " << y;
   }
   const auto theirs = load(
-      R"(<?xml version="1.0"?><OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="200" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="200"><line/></geometry></planView>
-    <lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="5" b="0" c="0" d="0"/></lane></left><center><lane id="0"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="5" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
-    <objects><object id="a" type="patch" s="20" t="1" length="4" width="2"><material surface="gravel" friction="0.6"/></object>
-    <object id="b" type="patch" s="50" t="-2" hdg="1.5707963267948966"><outlines><outline id="0"><cornerLocal u="-1" v="-3" z="0" height="0"/><cornerLocal u="1" v="-3" z="0" height="0"/><cornerLocal u="1" v="3" z="0" height="0"/><cornerLocal u="-1" v="3" z="0" height="0"/></outline></outlines><material friction="0.3"/></object>
-    <object id="c" type="patch" s="100" t="0" length="2" width="2"><repeat s="100" length="30" distance="10" tStart="0" tEnd="3"/><material friction="0.2"/></object>
-    <object id="d" type="patch" s="160" t="0" length="2" width="2"/><object id="e" type="obstacle" s="170" t="0" length="2" width="2"><material friction="0.1"/></object></objects></road></OpenDRIVE>)");
+      R"(<?xml version="1.0"?><OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="200" junction="-1">
+          <planView><geometry s="0" x="0" y="0" hdg="0" length="200"><line/></geometry></planView>
+    <lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="5" b="0" c="0" d="0"/></lane>
+      </left><center><lane id="0"/></center><right><lane id="-1" type="driving">
+      <width sOffset="0" a="5" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
+    <objects><object id="a" type="patch" s="20" t="1" length="4" width="2"><material surface="gravel" friction="0.6"/>
+      </object>
+    <object id="b" type="patch" s="50" t="-2" hdg="1.5707963267948966"><outlines><outline id="0">
+      <cornerLocal u="-1" v="-3" z="0" height="0"/><cornerLocal u="1" v="-3" z="0" height="0"/>
+      <cornerLocal u="1" v="3" z="0" height="0"/><cornerLocal u="-1" v="3" z="0" height="0"/></outline></outlines>
+      <material friction="0.3"/></object>
+    <object id="c" type="patch" s="100" t="0" length="2" width="2">
+      <repeat s="100" length="30" distance="10" tStart="0" tEnd="3"/><material friction="0.2"/></object>
+    <object id="d" type="patch" s="160" t="0" length="2" width="2"/>
+      <object id="e" type="obstacle" s="170" t="0" length="2" width="2"><material friction="0.1"/></object></objects>
+      </road></OpenDRIVE>)");
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     const double x = base::RandomUniform({i, 3}, 1.0, 199.0), y = base::RandomUniform({i, 4}, -4.9, 4.9);
     double expected = 1.0;

@@ -119,10 +119,9 @@ TEST_F(MeasuredExport, TheFileIsNamedBesideIt) {
                         "{crg: made.crg, from_s_m: 60, to_s_m: 70}]\n"));
   (void)ThereAndBack(*Load("in/w.yaml"));
   const std::string text = base::ReadText(folder_.path() / "moved/it.xodr").value();
-  EXPECT_THAT(
-      text,
-      HasSubstr(
-          R"(<CRG file="it_surfaces/made.crg" sStart="20" sEnd="30" orientation="same" mode="attached" purpose="elevation" sOffset="0" tOffset="0" zOffset="0" zScale="2"/>)"));
+  EXPECT_THAT(text,
+              HasSubstr(R"(<CRG file="it_surfaces/made.crg" sStart="20" sEnd="30" orientation="same" mode="attached" )"
+                        R"(purpose="elevation" sOffset="0" tOffset="0" zOffset="0" zScale="2"/>)"));
   EXPECT_THAT(text, HasSubstr(R"(<CRG file="it_surfaces/made_2.crg" sStart="40" sEnd="50" orientation="opposite")"));
   EXPECT_THAT(text, HasSubstr(R"(<CRG file="it_surfaces/made.crg" sStart="60" sEnd="70")"));
   EXPECT_EQ(base::ReadText(folder_.path() / "moved/it_surfaces/made_2.crg").value(), crg.Text());
@@ -216,10 +215,10 @@ TEST_F(MeasuredExport, WhatIsWrongInTheDataOfUsersIsSaid) {
     for (const auto& finding : import.value().errors) all += finding.Text() + "\n";
     return all;
   };
-  EXPECT_EQ(
-      errors(
-          R"(<userData code="rodeira:iso_8608" value="-1 30 0 0.000064 18446744073709551615"/><userData code="another" value="x"/>)"),
-      "");
+  EXPECT_EQ(errors(
+                R"(<userData code="rodeira:iso_8608" value="-1 30 0 0.000064 18446744073709551615"/>
+              <userData code="another" value="x"/>)"),
+            "");
   for (const char* wrong : {"", "1 2 3 0.1", "1 2 3 0.1 -1", "1 2 3 0.1 1 1", "2 1 3 0.1 1", "1 2 3 7 1", "1 2 3 nan 1",
                             "1 2 1e9 0.1 1", "1 2 3 0.1 x"}) {
     EXPECT_THAT(errors(fmt::format(R"(<userData code="rodeira:iso_8608" value="{}"/>)", wrong)),

@@ -59,7 +59,8 @@ TEST_F(NamedNetwork, IsTheWorldOfItsFile) {
 TEST_F(NamedNetwork, HasTheWarningsOfItsFile) {
   opendrive::RoadText road;
   road.geometry =
-      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.0005" length="50"><line/></geometry>)";
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry>
+          <geometry s="50" x="50" y="0" hdg="0.0005" length="50"><line/></geometry>)";
   const auto file = folder_->path() / "roads.xodr";
   ASSERT_TRUE(base::WriteWhole(file, opendrive::Document(road.Text())).ok());
   ASSERT_TRUE(With(kNetwork).ok());

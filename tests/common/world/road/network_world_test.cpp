@@ -49,7 +49,8 @@ std::string TwoLevels() {
   below.elevation = R"(<elevation s="0" a="0" b="0.1" c="0" d="0"/>)";
   below.lateral = R"(<superelevation s="0" a="0.05" b="0" c="0" d="0"/>)";
   below.right =
-      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><material sOffset="60" surface="ice" friction="0.15"/></lane>
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+          <material sOffset="60" surface="ice" friction="0.15"/></lane>
                    <lane id="-2" type="sidewalk"><width sOffset="0" a="2" b="0" c="0" d="0"/></lane>)";
   above.id = "2";
   above.geometry = R"(<geometry s="0" x="50" y="-50" hdg="1.5707963267948966" length="100"><line/></geometry>)";

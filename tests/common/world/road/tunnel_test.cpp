@@ -19,7 +19,8 @@ namespace {
 TEST(Tunnel, TheTerrainGoesOnOverATunnel) {
   const auto world = MustParse(R"(rodeira: world/2
 name: tunnel
-terrain: {surface: soil, generate: {seed: 2, columns: 61, rows: 61, spacing_m: 5, west_m: -50, south_m: -150, below_m: -9, flat_m: 30, full_m: 90, relief: [{wavelength_m: 60, amplitude_m: 3}]}}
+terrain: {surface: soil, generate: {seed: 2, columns: 61, rows: 61, spacing_m: 5, west_m: -50, south_m: -150,
+  below_m: -9, flat_m: 30, full_m: 90, relief: [{wavelength_m: 60, amplitude_m: 3}]}}
 roads:
   - id: a
     start: {x_m: 0, y_m: 0, heading_deg: 3}
