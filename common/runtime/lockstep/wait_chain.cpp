@@ -16,7 +16,7 @@ std::string Doing(const Report& report) {
     case Waiting::kServer:
       return fmt::format("waits at step {} for a server's answer since {:.1f} s", report.progress, since_s);
     case Waiting::kOutput:
-      return fmt::format("writes what it made before step {} since {:.1f} s", report.progress, since_s);
+      return fmt::format("still writes the output of the steps before {}, since {:.1f} s", report.progress, since_s);
     default:
       break;
   }

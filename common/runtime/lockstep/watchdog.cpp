@@ -109,8 +109,9 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
     }
     if (incarnation.report.phase == Phase::kRunning && incarnation.report.waiting == Waiting::kOutput &&
         incarnation.report.since_ms > settings_.start_ms) {
-      return Fault{n, fmt::format("node '{}' has been writing what it made before step {} for {:.0f} s", spec.name,
-                                  incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3)};
+      return Fault{n,
+                   fmt::format("node '{}' has been writing the output of the steps before {} for {:.0f} s", spec.name,
+                               incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3)};
     }
   }
   everybody_ready_ = everybody_ready_ || missing.empty();

@@ -365,9 +365,9 @@ TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
       WaitChain(roster, reports),
       "'view' waits for 'car', 'car' waits for 'driver', 'driver' waits at step 12 for a server's answer since 3.2 s");
   reports[0].waiting = Waiting::kOutput;
-  EXPECT_EQ(
-      WaitChain(roster, reports),
-      "'view' waits for 'car', 'car' waits for 'driver', 'driver' writes what it made before step 12 since 3.2 s");
+  EXPECT_EQ(WaitChain(roster, reports),
+            "'view' waits for 'car', 'car' waits for 'driver', 'driver' still writes the output of the steps before "
+            "12, since 3.2 s");
   reports[0].phase = Phase::kStarting;
   reports[0].waiting = Waiting::kNothing;
   EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' is starting");

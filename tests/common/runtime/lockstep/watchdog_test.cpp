@@ -85,7 +85,7 @@ TEST_F(WatchdogTest, ANodeThatWritesItsResultsHasAsLongAsAtTheStart) {
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
   EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5001);
-  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been writing what it made before step 7 for 5 s");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been writing the output of the steps before 7 for 5 s");
 }
 
 TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
