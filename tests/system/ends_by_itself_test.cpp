@@ -56,9 +56,17 @@ class EndsByItself : public testing::TestWithParam<std::string> {
                  "d: {kind: empty}, recorder: {kind: recorder}}\n")
           .string();
   std::vector<std::string> Command(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> command{Bin("rodeira"), "run",      launch_,
-                                     "--run",        name,       "--pace",
-                                     "max",          "--record", (folder_.path() / (name + ".mcap")).string()};
+    std::vector<std::string> command{Bin("rodeira"),
+                                     "run",
+                                     launch_,
+                                     "--run",
+                                     name,
+                                     "--pace",
+                                     "max",
+                                     "--record",
+                                     (folder_.path() / (name + ".mcap")).string(),
+                                     "--set",
+                                     "limits.step_s=5"};  // a step that fills memory is long under load
     command.insert(command.end(), more.begin(), more.end());
     return command;
   }

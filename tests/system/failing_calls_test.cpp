@@ -222,7 +222,7 @@ TEST_P(Limits, AreTold) {
     const Ended ended = Started({"/bin/sh", "-c",
                                  fmt::format("ulimit {} && exec '{}' run first_drive --for 0.2 --record '{}'{}",
                                              GetParam(), Bin("rodeira"), file, how)})
-                            .Wait(90s);  // a node that is never met is named after limits.start_s, 60 s
+                            .Wait(90s);
     if (ended.status == 0) {
       EXPECT_NE(ended.out.find("audit   lossless"), std::string::npos) << ended.out;
       continue;
@@ -230,13 +230,16 @@ TEST_P(Limits, AreTold) {
     EXPECT_EQ(ended.status, 1) << ended.out;
     EXPECT_NE(ended.out.find("rodeira"), std::string::npos) << ended.out;
     EXPECT_EQ(ended.out.find("terminate called"), std::string::npos) << ended.out;
+    EXPECT_EQ(ended.out.find("are still missing"), std::string::npos) << "no cause is named: " << ended.out;
     if (std::filesystem::exists(file)) {
       EXPECT_NE(ended.out.find("rodeira repair"), std::string::npos) << ended.out;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheShell, Limits, ::testing::Values("-v 220000", "-v 300000", "-v 400000", "-n 9", "-n 14"));
+INSTANTIATE_TEST_SUITE_P(OfTheShell, Limits,
+                         ::testing::Values("-v 220000", "-v 300000", "-v 388000", "-v 392000", "-v 396000", "-v 400000",
+                                           "-n 9", "-n 14"));
 
 }  // namespace
 }  // namespace rodeira::system_test

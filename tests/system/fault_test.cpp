@@ -77,6 +77,51 @@ TEST(Fault, AHangingServerIsNamedByItsDeadline) {
   const Ended ended = Started(part("rodeira-clock", "")).Wait(30s);
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.out.find("node 'road' has been answering a request for "), std::string::npos) << ended.out;
+  const Ended server = road.Wait(30s);
+  EXPECT_EQ(server.status, 1) << server.out;
+  EXPECT_NE(server.out.find("node 'road' hangs 3 s after it was told to end"), std::string::npos) << server.out;
+}
+
+// Its step holds the thread that receives, and nothing else ends its process.
+class HangingByHand : public ::testing::Test {
+ protected:
+  HangingByHand() {
+    for (const char* node : {"a", "b", "c", "d"}) nodes_.push_back(std::make_unique<Started>(Part("empty", node)));
+  }
+  static std::vector<std::string> Part(const std::string& kind, const std::string& node) {
+    std::vector<std::string> words{Bin("rodeira-" + kind),
+                                   "--launch",
+                                   LaunchFile("empty.yaml"),
+                                   "--run",
+                                   fmt::format("hanging-{}", ::getpid()),
+                                   "--set",
+                                   "nodes.b.config.hang_at_step=200",
+                                   "--set",
+                                   "limits.step_s=4"};
+    if (!node.empty()) words.insert(words.end(), {"--node", node});
+    return words;
+  }
+  void ExpectEndOfTheHangingNode(const std::string& reason) {
+    const Ended ended = nodes_[1]->Wait(40s);
+    EXPECT_EQ(ended.status, 1) << ended.out;
+    EXPECT_NE(ended.out.find("node 'b' hangs 3 s after it was told to end ("), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find(reason), std::string::npos) << ended.out;
+  }
+  std::vector<std::unique_ptr<Started>> nodes_;
+};
+
+TEST_F(HangingByHand, ANodeHearsThatItsRunIsAborted) {
+  const Ended ended = Started(Part("clock", "")).Wait(30s);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.out.find("node 'b' has been computing step 200 for"), std::string::npos) << ended.out;
+  ExpectEndOfTheHangingNode("node 'b' has been computing step 200 for");
+}
+
+TEST_F(HangingByHand, ANodeMissesAClockThatIsGone) {
+  Started clock(Part("clock", ""));
+  ASSERT_GE(nodes_[1]->WaitFor("told to hang here", 30s), 0ms);
+  ::kill(clock.pid(), SIGKILL);
+  ExpectEndOfTheHangingNode("the clock has said nothing for 3.0 s");
 }
 
 TEST(Fault, AFailingNodeIsNamedWithItsReason) {

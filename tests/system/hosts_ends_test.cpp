@@ -60,7 +60,7 @@ std::vector<Row> ReadRows() {
   return rows;
 }
 
-class HostsEnds : public testing::TestWithParam<std::string> {
+class TwoHosts : public testing::Test {
  protected:
   void SetUp() override {
     rig_ = std::make_unique<Rig>(2, Weather{0.0, 0us, false});
@@ -107,6 +107,13 @@ class HostsEnds : public testing::TestWithParam<std::string> {
     return Drives();
   }
   static bool Drives() { return ProcessesWith("--run rig", "bin/rodeira-empty").size() == 4 && Runs("rig", 20s); }
+  static bool ClockSays(const std::string& text) {
+    const auto until = std::chrono::steady_clock::now() + 10s;
+    for (; std::chrono::steady_clock::now() < until; ::usleep(5000)) {
+      if (RunCommand({Bin("rodeira"), "ctl", "--run", "rig", "state"}).out.find(text) != std::string::npos) return true;
+    }
+    return false;
+  }
   void Cause(const struct Cause& cause, const std::array<std::unique_ptr<Started>, 2>& pcs) {
     if (cause.what != What::kShutDown) rig_->Unplug(cause.host);
     if (cause.what != What::kUnplug) {
@@ -126,6 +133,7 @@ class HostsEnds : public testing::TestWithParam<std::string> {
   std::string lab_, launch_, undisturbed_;
   int runs_ = 0;
 };
+class HostsEnds : public TwoHosts, public testing::WithParamInterface<std::string> {};
 
 TEST_P(HostsEnds, AreThoseOfTheTable) {
   const struct Cause& cause = kCauses.at(GetParam());
@@ -171,6 +179,26 @@ TEST_P(HostsEnds, AreThoseOfTheTable) {
   EXPECT_EQ(again.status, 0) << again.out;
   EXPECT_EQ(DigestIn(again.out), undisturbed_) << again.out;
   EXPECT_EQ(pcs[1]->Wait(10s).status, 0);
+}
+
+// Where a cable is plugged in, packets arrive up to a second before the interface runs: a node that started meanwhile
+// would be heard by no other for good.
+TEST_F(TwoHosts, ANodeIsStartedAgainOnceItsInterfaceRuns) {
+  std::array<std::unique_ptr<Started>, 2> pcs;
+  pcs[1] = Start(1, "restart");
+  pcs[0] = Start(0, "restart");
+  ASSERT_TRUE(WaitUntilItDrives());
+  rig_->SetRunning(1, false);
+  ASSERT_GE(pcs[1]->WaitFor("no running interface of this PC has the address", 10s), 0ms);
+  const auto nodes = ProcessesWith("--run rig", "--node b");
+  ASSERT_EQ(nodes.size(), 1u);
+  ::kill(nodes.front(), SIGKILL);
+  ASSERT_TRUE(ClockSays("'b' is starting"));
+  rig_->SetRunning(1, true);
+  const Ended left = pcs[0]->Wait(40s), right = pcs[1]->Wait(10s);
+  EXPECT_EQ(left.status, 0) << left.out;
+  EXPECT_EQ(right.status, 0) << right.out;
+  EXPECT_EQ(DigestIn(left.out), undisturbed_) << left.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(Causes, HostsEnds,

@@ -251,6 +251,9 @@ TEST_F(OwnNode, AProgramThatCannotBeStartedIsRefusedBeforeTheRun) {
 
 TEST_F(OwnNode, AProgramThatNeverTakesPartEndsTheRun) {
   EXPECT_THAT(Failure(1, {"--set", Script("exit 0")}), HasSubstr("node 'eye' left with status 0"));
+  EXPECT_THAT(Failure(2, {"--set", Script("echo 'rodeira: end: refused 0 the eye is shut' >&2; exit 2")}),
+              HasSubstr("node 'eye' failed at step 0: the eye is shut"))
+      << "the last word needs no network";
   EXPECT_THAT(Failure(1, {"--set", Script("exit 7")}), HasSubstr("node 'eye' left with status 7"));
   EXPECT_THAT(Failure(1, {"--set", Script("kill -SEGV $$")}), HasSubstr("node 'eye' was killed by signal 11"));
   EXPECT_THAT(Failure(1, {"--set", Script("exec sleep 100"), "--set", "limits.start_s=2"}), HasSubstr("'eye'"));

@@ -92,6 +92,11 @@ std::string Rig::Laboratory(int hosts, const std::string& discovery) {
   return text;
 }
 
+void Rig::SetRunning(int host, bool runs) {
+  (void)Ip({"-n", Space(std::to_string(host)), "link", "set", "eth0", "mode", runs ? "default" : "dormant"});
+  (void)Ip({"-n", Space(std::to_string(host)), "link", "set", "eth0", "state", runs ? "up" : "dormant"});
+}
+
 void Rig::Unplug(int host) { (void)Ip({"-n", Space("hub"), "link", "set", "port" + std::to_string(host), "down"}); }
 
 void Rig::Plug(int host) { (void)Ip({"-n", Space("hub"), "link", "set", "port" + std::to_string(host), "up"}); }

@@ -28,6 +28,8 @@ class Rig {
   // The command, in the network of this host.
   std::vector<std::string> On(int host, std::vector<std::string> command) const;
   // Pulls the host's cable, and plugs it in again.
+  // Whether the interface counts as running; packets pass all the same (RFC 2863: dormant).
+  void SetRunning(int host, bool runs);
   void Unplug(int host);
   void Plug(int host);
 

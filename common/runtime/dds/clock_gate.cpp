@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/core/base/suggest.hpp"
@@ -31,21 +32,41 @@ void ClockGate::Take(NamedReport& named) {
         base::DidYouMean(named.node, run_.roster.Names()));
     return;
   }
-  if (named.clock_id != 0 && named.clock_id != clock_id_) return;       // meant for another clock
-  if (named.report.incarnation < run_.clock.incarnation(node)) return;  // of an incarnation that is over
-  if (named.report.phase == lockstep::Phase::kLost) {
-    lost_.push_back({named.node, named.report.incarnation, named.report.message});
-    return;
-  }
+  if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
   named.report.node = node;
+  if (IsOfTheLost(named.report)) return;
   if (auto status = MayTakePart(node, named); !status) {
     refusal_ = status.error().Text();
     return;
   }
+  Note(named.report);
+}
+
+void ClockGate::Take(const LastWord& word) {
+  const lockstep::NodeIndex node = run_.roster.Find(word.node);
+  if (node == run_.roster.nodes().size()) return;
+  lockstep::Report report = run_.clock.report(node);
+  report.node = node;
+  report.incarnation = word.incarnation;
+  report.phase = word.phase;
+  report.progress = std::max(report.progress, word.step);
+  report.message = word.text;
+  if (!IsOfTheLost(report)) Note(report);
+}
+
+// Nothing more is to be done with it: of an incarnation that is over, or of a node that is lost.
+bool ClockGate::IsOfTheLost(const lockstep::Report& report) {
+  if (report.incarnation < run_.clock.incarnation(report.node)) return true;
+  if (report.phase != lockstep::Phase::kLost) return false;
+  lost_.push_back({run_.roster.node(report.node).name, report.incarnation, report.message});
+  return true;
+}
+
+void ClockGate::Note(const lockstep::Report& report) {
   const lockstep::Wall now = run_.Now();
-  run_.watchdog.Heard(named.report, now.monotonic_ns / 1'000'000);
-  run_.missed.Heard(node, now.monotonic_ns);
-  if (auto status = run_.clock.Take(named.report); !status) Say("refused {}", OneLine(status.error().Text()));
+  run_.watchdog.Heard(report, now.monotonic_ns / 1'000'000);
+  run_.missed.Heard(report.node, now.monotonic_ns);
+  if (auto status = run_.clock.Take(report); !status) Say("refused {}", OneLine(status.error().Text()));
 }
 
 base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport& named) {

@@ -19,6 +19,8 @@ class ClockGate {
 
   // A report as it came. What it says goes to clock, watchdog and losses.
   void Take(const base::Bytes& payload);
+  // The same of a process of this PC that has ended.
+  void Take(const LastWord& word);
   // The reason for which a process must not take part: the run ends by it, status 2. Empty: none is refused.
   const std::string& refusal() const { return refusal_; }
   // Nodes that were lost by their own word or by that of another PC, each once.
@@ -33,6 +35,8 @@ class ClockGate {
     std::uint32_t pid = 0;
   };
   void Take(NamedReport& named);
+  bool IsOfTheLost(const lockstep::Report& report);
+  void Note(const lockstep::Report& report);
   base::Status MayTakePart(lockstep::NodeIndex node, const NamedReport& named);
   base::Status CheckOnce(lockstep::NodeIndex node, const NamedReport& named);
 

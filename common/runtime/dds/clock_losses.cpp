@@ -20,11 +20,6 @@ std::optional<RunTermination> ClockLosses::TakeLost(const LostNode& lost) {
                     1);
 }
 
-void ClockLosses::NoteExit(LostNode exited) {
-  const lockstep::NodeIndex node = run_.roster.Find(exited.node);
-  if (node < run_.roster.nodes().size()) exits_[node] = std::move(exited);
-}
-
 // A node that reported a failure would fail again; one that was not ready in time would not be the next time either.
 std::optional<RunTermination> ClockLosses::Watch() {
   const auto fault = run_.watchdog.Check(run_.NowMs(), run_.clock.grant());
@@ -32,9 +27,6 @@ std::optional<RunTermination> ClockLosses::Watch() {
   const lockstep::Report& report = run_.clock.report(fault->node);
   const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
   if (by_its_own_word || report.phase < Phase::kReady) return RunTermination{fault->reason, fault->status};
-  const auto exit = exits_.find(fault->node);
-  if (exit != exits_.end() && exit->second.incarnation == run_.clock.incarnation(fault->node))
-    return TakeLost(exit->second);
   return HandleLoss(fault->node, fault->reason, fault->status);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -27,8 +26,6 @@ class ClockLosses {
   // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
   // another incarnation has taken its place.
   std::optional<RunTermination> TakeLost(const LostNode& lost);
-  // A node's process has ended by itself. The node is lost only if its silence is; that loss is then named by this end.
-  void NoteExit(LostNode exited);
   // The node that the watchdog names, if any.
   std::optional<RunTermination> Watch();
   // By the operator's word: a sentence of what is done, or why it cannot be.
@@ -39,7 +36,6 @@ class ClockLosses {
   void Announce(lockstep::NodeIndex node, const std::string& reason);
 
   ClockRun& run_;
-  std::map<lockstep::NodeIndex, LostNode> exits_;  // the newest of each node
   std::function<void(lockstep::NodeIndex)> on_next_life_;
 };
 

@@ -4,41 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <utility>
 
 #include "common/core/base/wait.hpp"
-#include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/sample_difference.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
-
-namespace {
-
-constexpr std::chrono::milliseconds kTimeToEnd{500};
-constexpr std::chrono::milliseconds kShownWait{500};
-constexpr std::chrono::milliseconds kTimeToRead{5};
-
-std::int64_t NowMs() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now().time_since_epoch()).count();
-}
-
-volatile std::sig_atomic_t g_terminated = 0;
-
-void OnTerminate(int) {
-  g_terminated = 1;
-  EndProcessWithin(kEndWithoutSupervisor);
-}
-
-}  // namespace
-
-void NodeBus::HandleSignals() {
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, OnTerminate);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not the process' end
-}
 
 namespace topics = idl::topics;
 using lockstep::LifeEvent;
@@ -75,6 +48,7 @@ NodeBus::~NodeBus() {
   }
   woken_.notify_all();
   if (heartbeat_.joinable()) heartbeat_.join();
+  listener_.reset();
   readers_.clear();            // first: their callbacks use the rest
   retransmit_server_.reset();  // then: it uses the writers
 }
@@ -305,93 +279,43 @@ void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
 }
 
 void NodeBus::OnGrant(base::Bytes&& payload) {
+  const auto grant = Note(payload);
+  if (!grant) return;
+  mailbox_.DeliverGrant(*grant);
+  retransmit_server_->Granted(*grant);
+  if (grant->over || grant->abort) woken_.notify_all();
+}
+
+void NodeBus::OnGrantMeanwhile(const base::Bytes& payload) {
+  const auto grant = Note(payload);
+  if (!grant) return;
+  {
+    const std::lock_guard lock(mutex_);
+    heard_meanwhile_ = true;
+  }
+  if (grant->over || grant->abort) mailbox_.DeliverGrant(*grant);
+}
+
+std::optional<lockstep::Grant> NodeBus::Note(const base::Bytes& payload) {
   const auto grant = DecodeGrant(payload);
-  if (!grant) return;  // of another version; the clock refuses our report and says so
+  if (!grant) return std::nullopt;  // of another version; the clock refuses our report and says so
   {
     const std::lock_guard lock(mutex_);
     if (clock_id_ == 0) clock_id_ = grant.value().clock_id;
-    if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
+    if (clock_id_ != grant.value().clock_id) return std::nullopt;  // one clock a run: the first
     heard_ = grant.value().grant;
     clock_silence_.Heard(NowMs());
   }
   const std::vector<std::uint32_t>& incarnations = grant.value().grant.incarnations;
-  if (settings_.node < incarnations.size() && incarnations[settings_.node] > settings_.incarnation)
-    return EndEarly(LifeEvent::kLost, "was replaced by another process");
-  mailbox_.DeliverGrant(grant.value().grant);
-  retransmit_server_->Granted(grant.value().grant);
-  if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
+  if (settings_.node >= incarnations.size() || incarnations[settings_.node] <= settings_.incarnation)
+    return grant.value().grant;
+  EndEarly(LifeEvent::kLost, "was replaced by another process");
+  return std::nullopt;
 }
 
 void NodeBus::EndEarly(LifeEvent event, std::string reason) {
   mailbox_.EndEarly({event, std::move(reason)});
   woken_.notify_all();
-}
-
-// Where the node stands. A node that has to end and does not come to it, because it loads, computes or hangs, is
-// reported as ended after a while: its process has a second.
-lockstep::Report NodeBus::ReportNow() {
-  const std::lock_guard lock(mutex_);
-  lockstep::Report report = runner_ != nullptr ? runner_->report() : last_;
-  const auto end = mailbox_.early_end();
-  if (runner_ == nullptr && report.phase == lockstep::Phase::kRunning && held_up_since_) {  // of a server: a request
-    report.waiting = lockstep::Waiting::kNothing;
-    report.since_ms = std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - *held_up_since_).count();
-  }
-  if (!lockstep::IsTerminal(report.phase)) report.message = base::LongestWait(kShownWait);
-  if (!end || lockstep::IsTerminal(report.phase)) return report;
-  if (!ends_since_) ends_since_ = WallClock::now();
-  if (runner_ != nullptr && WallClock::now() - *ends_since_ < kTimeToEnd) return report;
-  report.phase = lockstep::NextPhase(report.phase, end->event);
-  report.message = end->reason;
-  return report;
-}
-
-void NodeBus::Heartbeat() {
-  std::unique_lock lock(mutex_);
-  std::uint64_t begun_before = 0;
-  auto looked = WallClock::now();
-  while (!stop_) {
-    // A step may run on the receiving thread: one that hangs keeps all further messages, also the clock's, waiting.
-    const std::uint64_t done = messages_done_, begun = messages_begun_;
-    const bool was_stopped = WallClock::now() - looked > settings_.clock_silence / 10;
-    const bool held_up = begun == begun_before && begun != done;
-    if (!held_up || !held_up_since_) held_up_since_ = held_up ? std::optional(looked) : std::nullopt;
-    begun_before = begun;
-    looked = WallClock::now();
-    const bool silent = clock_silence_.IsSilent(NowMs(), !held_up);
-    lock.unlock();
-    const lockstep::Grant grant = mailbox_.grant();
-    if (silent && !grant.over && !grant.abort)
-      EndEarly(LifeEvent::kFailed,
-               fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                           static_cast<double>(settings_.clock_silence.count()) / 1e3));
-    if (g_terminated != 0 && !grant.over)
-      EndEarly(LifeEvent::kLost, fmt::format("was told to end by signal {} (Terminated)", SIGTERM));
-    lock.lock();
-    // What has come while this process was stopped is read before it reports.
-    if (was_stopped) woken_.wait_for(lock, kTimeToRead, [this] { return stop_; });
-    lock.unlock();
-    Tell(ReportNow());
-    lock.lock();
-    woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });
-  }
-}
-
-void NodeBus::Linger(const lockstep::Report& last, std::optional<std::chrono::milliseconds> limit) {
-  Follow(nullptr);
-  const auto begin = WallClock::now();
-  Tell(last);
-  std::unique_lock lock(mutex_);
-  while (!limit || WallClock::now() < begin + *limit) {
-    lock.unlock();
-    const lockstep::Grant grant = mailbox_.grant();
-    if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached no node
-    lock.lock();
-    if (grant.over) return;
-    if (grant.abort && WallClock::now() > begin + std::chrono::milliseconds(100))
-      return;  // the last word had time to go
-    woken_.wait_for(lock, std::chrono::milliseconds(10));
-  }
 }
 
 std::uint64_t NodeBus::clock_id() const {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/runtime/dds/grant_listener.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/retransmit_server.hpp"
 #include "common/runtime/dds/wire.hpp"
@@ -39,7 +40,8 @@ class NodeBus final : public lockstep::Bus {
     std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{
-        3000};  // the clock repeats its grant all the time; silent this long it is gone
+        3000};              // the clock repeats its grant all the time; silent this long it is gone
+    DomainSettings domain;  // of the participant; for another one that hears the clock while this one is held up
   };
   static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster,
                                                      lockstep::Mailbox& mailbox, const Settings& settings);
@@ -94,6 +96,17 @@ class NodeBus final : public lockstep::Bus {
   // On a receive thread of Fast DDS. `topic`: the sample's topic; empty for a sample of a batch.
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
+  // While a receiving thread is held up. No step is begun on this thread.
+  void OnGrantMeanwhile(const base::Bytes& payload);
+  std::optional<lockstep::Grant> Note(const base::Bytes& payload);  // of this run's clock, else none
+  // The clock is heard again over another participant where the receiving thread is held up for long. From then on its
+  // silence counts again.
+  void ListenMeanwhile();
+  bool CanHear(bool held_up) const;
+  // Ends the node where a message of another process may have been passed over for want of memory.
+  void LookAtAddressSpace(const lockstep::Grant& grant);
+  // Ends this process where it has been told to end and does not come to it.
+  void EndIfItHangs(const lockstep::Grant& grant);
   void OnAsk(const base::Bytes& payload);
   Writer& WriterOf(lockstep::SourceIndex output);
   void EndEarly(lockstep::LifeEvent event, std::string reason);
@@ -129,11 +142,16 @@ class NodeBus final : public lockstep::Bus {
   std::atomic<std::uint64_t> messages_done_ = 0;
   std::optional<std::chrono::steady_clock::time_point> held_up_since_;  // a receiving thread, by one message
   std::optional<std::chrono::steady_clock::time_point> ends_since_;     // it has to end, and has not yet
+  std::optional<std::chrono::steady_clock::time_point> leaves_since_;   // the same, of the process
+  std::optional<std::chrono::steady_clock::time_point> listens_since_;  // to the clock, over another participant
+  bool heard_meanwhile_ = false;
   std::optional<lockstep::Grant> heard_;
   std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
   std::optional<lockstep::Snapshot> snapshot_;
   lockstep::Step safe_;
   bool stop_ = false;
+  std::optional<GrantListener> listener_;  // of the heartbeat's thread
+  const std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   std::thread heartbeat_;
 };
 

@@ -28,6 +28,7 @@
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/shared_memory_room.hpp"
 #include "common/runtime/dds/statements.hpp"
 #include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
@@ -41,6 +42,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace topics = idl::topics;
 
+constexpr auto kStartsForLong = 1000ms;
 constexpr auto kOrderlyStop = 1000ms;  // after the end of `rodeira run`
 
 std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
@@ -128,6 +130,13 @@ class ClockProcess {
     woken_.notify_one();
   }
 
+  // A report of a node may have been passed over for want of memory.
+  base::Status CheckMemory() const {
+    const auto& transport = run_.launch.transport_settings();
+    if (transport.kind != launch::Transport::kSharedMemory) return {};
+    return CheckAddressSpace(transport.segment_kib);
+  }
+
   // This incarnation of the clock takes the place of one that has died: the nodes' reports say where the run stands.
   void GoOn() {
     run_.clock.Rebuild();
@@ -143,11 +152,15 @@ class ClockProcess {
     while (!run_.clock.all_finished()) {
       if (MustYield()) return Complain(SecondClock().error());
       TakeReports();
+      for (const LastWord& word : supervisor_.TakeLastWords()) gate_.Take(word);
       if (!gate_.refusal().empty()) return Abort({gate_.refusal(), 2});
       if (const auto end = LookAfterLosses()) return Abort(*end);
       if (!told_ready && run_.clock.all_ready()) {
         told_ready = true;
         Say("ready");
+      }
+      if (!told_ready && WallClock::now() - run_.start > kStartsForLong) {
+        if (auto status = CheckMemory(); !status) return Abort({status.error().Text(), 1});
       }
       const lockstep::Grant before = run_.clock.grant();
       desk_.Do(supervisor_.TakeCommands());
@@ -179,7 +192,6 @@ class ClockProcess {
     for (const LostNode& one : lost) {
       if (auto end = losses_.TakeLost(one)) return end;
     }
-    for (LostNode& one : supervisor_.TakeExited()) losses_.NoteExit(std::move(one));
     const auto now = WallClock::now();
     if (now - checked_ < 20ms) return std::nullopt;
     checked_ = now;

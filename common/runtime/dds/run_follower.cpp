@@ -166,22 +166,28 @@ class Follower {
     for (const LostNode& lost : supervisor_.TakeLost()) {
       const NodeIndex node = roster_.Find(lost.node);
       if (node == roster_.nodes().size()) continue;
-      lost_.push_back({node, lost.incarnation, fmt::format("{} (host '{}')", lost.text, options_.follow)});
+      lost_.push_back(
+          {node, lost.incarnation, fmt::format("{} (host '{}')", lost.text, options_.follow), Phase::kLost, 0});
+    }
+    for (LastWord& word : supervisor_.TakeLastWords()) {
+      const NodeIndex node = roster_.Find(word.node);
+      if (node < roster_.nodes().size())
+        lost_.push_back({node, word.incarnation, std::move(word.text), word.phase, word.step});
     }
     std::erase_if(lost_, [&](const Lost& lost) { return IncarnationOf(now, lost.node) > lost.incarnation; });
-    for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
+    for (const Lost& lost : lost_) TellFault(now, lost);
     if (StopSignals() > 0)
-      TellFault(now,
-                {AnyOwnNode(), IncarnationOf(now, AnyOwnNode()),
-                 fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
-                Phase::kFailed);
+      TellFault(now, {AnyOwnNode(), IncarnationOf(now, AnyOwnNode()),
+                      fmt::format("it was stopped by a signal (host '{}')", options_.follow), Phase::kFailed, 0});
   }
   struct Lost {
     NodeIndex node = 0;
     std::uint32_t incarnation = 0;
     std::string text;
+    Phase phase = Phase::kLost;
+    lockstep::Step step = 0;  // at least
   };
-  void TellFault(const Now& now, const Lost& lost, Phase phase) {
+  void TellFault(const Now& now, const Lost& lost) {
     NamedReport report;
     report.node = roster_.node(lost.node).name;
     report.clock_id = now.clock_id;
@@ -189,7 +195,8 @@ class Follower {
     report.hello.pid = 0;  // not the node's own word
     if (now.reports[lost.node]) report.report = *now.reports[lost.node];
     report.report.incarnation = lost.incarnation;
-    report.report.phase = phase;
+    report.report.phase = lost.phase;
+    report.report.progress = std::max(report.report.progress, lost.step);
     report.report.message = lost.text;
     (void)reports_out_->Write(EncodeReport(report));
   }

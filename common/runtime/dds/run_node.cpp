@@ -20,6 +20,7 @@
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/remote_requests.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/launch/node_library.hpp"
 #include "common/runtime/lockstep/pump.hpp"
 #include "common/runtime/lockstep/recovery.hpp"
@@ -162,6 +163,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
         error.exit_status() == 2 ? lockstep::LifeEvent::kRefused : lockstep::LifeEvent::kFailed, error.Text()});
     report.phase = lockstep::NextPhase(report.phase, end.event);
     report.message = end.reason;
+    WriteLastWord(report);
     bus.Linger(report, 1000ms);
     return report.phase == lockstep::Phase::kRefused ? 2 : 1;
   };
@@ -184,6 +186,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   const auto outcome = brief ? lockstep::RunInline(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
   const bool finished = outcome == lockstep::Runner::Outcome::kFinished;
+  WriteLastWord(runner.report());
   bus.Linger(runner.report(), finished ? std::nullopt : std::optional(500ms));
   if (finished) return 0;
   return runner.report().phase == lockstep::Phase::kRefused ? 2 : 1;
@@ -222,6 +225,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch.value(), index);
   settings.topics = launch.value().topics();
+  settings.domain = domain;
   settings.max_batch_bytes =
       domain.transport == launch::Transport::kSharedMemory ? kSampleBatchInMemory_bytes : kSampleBatchOnWire_bytes;
   settings.most_answer_bytes =

@@ -11,6 +11,7 @@
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -48,13 +49,15 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
                                               options.node, kind),
                                   options.launch_file));
   }
-  auto participant = Participant::Open(DomainOf(options, launch.value(), options.node));
+  const DomainSettings domain = DomainOf(options, launch.value(), options.node);
+  auto participant = Participant::Open(domain);
   if (!participant) return base::PrintError(program, participant.error());
   lockstep::Mailbox mailbox(roster, index);
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch.value(), index);
+  settings.domain = domain;
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return base::PrintError(program, bus.error());
 
@@ -68,6 +71,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
     const base::Error& error = service ? finish.error() : service.error();
     report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
     report.message = error.Text();
+    WriteLastWord(report);
     bus.value()->Linger(report, 1000ms);
     return error.exit_status();
   }
@@ -97,6 +101,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
     if (const auto end = mailbox.early_end()) {
       report.phase = lockstep::NextPhase(report.phase, end->event);
       report.message = end->reason;
+      WriteLastWord(report);
       bus.value()->Linger(report, 300ms);
       return 1;
     }

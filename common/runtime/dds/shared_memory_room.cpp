@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -86,6 +87,20 @@ base::Status ClaimOwnSegment() {
     if (problem == ENOSPC) return NoRoom(kSharedMemoryFolder, std::strerror(problem));
   }
   return {};
+}
+
+base::Status CheckAddressSpace(std::uint32_t segment_kib) {
+  const std::size_t bytes = std::size_t{segment_kib} * kKib * 103 / 100;
+  void* const place = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place != MAP_FAILED) {
+    ::munmap(place, bytes);
+    return {};
+  }
+  return base::Failed("system.no_memory",
+                      fmt::format("the memory that this program may use is exhausted (ulimit -v): it cannot map the "
+                                  "{:.1f} MB of shared memory of another process of the run; raise the limit, or "
+                                  "transport: udp",
+                                  static_cast<double>(bytes) * 1e-6));
 }
 
 }  // namespace rodeira::dds

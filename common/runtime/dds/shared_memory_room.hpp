@@ -24,4 +24,8 @@ base::Status TryRoom(std::uint64_t bytes, const std::filesystem::path& folder = 
 // if they cannot be had.
 base::Status ClaimOwnSegment();
 
+// Whether this process can still map a segment of another process. Fast DDS maps it when the first message arrives;
+// where it cannot, it passes over this message and all later ones without an error.
+base::Status CheckAddressSpace(std::uint32_t segment_kib);
+
 }  // namespace rodeira::dds

@@ -12,6 +12,9 @@
 #include <cstring>
 #include <utility>
 
+#include "common/runtime/dds/statements.hpp"
+#include "common/runtime/lockstep/life.hpp"
+
 namespace rodeira::dds {
 namespace {
 
@@ -24,14 +27,42 @@ std::string_view TakeWord(std::string_view& text) {
   return word;
 }
 
+// A word that is a number, whole.
+template <class Number>
+bool TakeNumber(std::string_view& text, Number& number) {
+  const std::string_view word = TakeWord(text);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc{} && !word.empty() && end == word.data() + word.size();
+}
+
 }  // namespace
+
+void WriteLastWord(const lockstep::Report& report) {
+  if (!lockstep::IsFault(report.phase)) return;
+  const std::string line = fmt::format("{}{} {} {}\n", kLastWord, lockstep::PhaseName(report.phase), report.progress,
+                                       OneLine(report.message));
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+std::optional<LastWord> ParseLastWord(std::string_view text) {
+  LastWord word;
+  word.node = TakeWord(text);
+  if (word.node.empty() || !TakeNumber(text, word.incarnation)) return std::nullopt;
+  const std::string_view phase = TakeWord(text);
+  for (const auto known : {lockstep::Phase::kFailed, lockstep::Phase::kRefused, lockstep::Phase::kLost}) {
+    if (phase != lockstep::PhaseName(known)) continue;
+    word.phase = known;
+    if (!TakeNumber(text, word.step) || word.step < 0) return std::nullopt;
+    word.text = text;
+    return word;
+  }
+  return std::nullopt;
+}
 
 std::optional<LostNode> ParseLostNode(std::string_view text) {
   LostNode lost;
   lost.node = TakeWord(text);
-  const std::string_view number = TakeWord(text);
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), lost.incarnation);
-  if (lost.node.empty() || error != std::errc{} || end != number.data() + number.size()) return std::nullopt;
+  if (lost.node.empty() || !TakeNumber(text, lost.incarnation)) return std::nullopt;
   lost.text = text.empty() ? "was lost" : text;
   return lost;
 }
@@ -80,10 +111,14 @@ void SupervisorPipe::Read(int descriptor, const std::function<void()>& on_line) 
 bool SupervisorPipe::Take(std::string_view line) {
   const std::string_view what = TakeWord(line);
   const std::lock_guard lock(mutex_);
-  if (what == "lost" || what == "exited") {
+  if (what == "lost") {
     auto node = ParseLostNode(line);
     if (!node) return false;
-    (what == "lost" ? lost_ : exited_).push_back(std::move(*node));
+    lost_.push_back(std::move(*node));
+  } else if (what == "said") {
+    auto word = ParseLastWord(line);
+    if (!word) return false;
+    last_words_.push_back(std::move(*word));
   } else if (what == "do") {
     commands_.emplace_back(line);
   } else if (what == "abort") {
@@ -99,9 +134,9 @@ std::vector<LostNode> SupervisorPipe::TakeLost() {
   return std::exchange(lost_, {});
 }
 
-std::vector<LostNode> SupervisorPipe::TakeExited() {
+std::vector<LastWord> SupervisorPipe::TakeLastWords() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(exited_, {});
+  return std::exchange(last_words_, {});
 }
 
 std::vector<std::string> SupervisorPipe::TakeCommands() {
@@ -121,7 +156,7 @@ bool SupervisorPipe::is_closed() const {
 
 bool SupervisorPipe::is_waiting() const {
   const std::lock_guard lock(mutex_);
-  return !lost_.empty() || !commands_.empty() || must_abort_;
+  return !lost_.empty() || !last_words_.empty() || !commands_.empty() || must_abort_;
 }
 
 }  // namespace rodeira::dds

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "common/runtime/lockstep/report.hpp"
 
 namespace rodeira::dds {
 
@@ -21,9 +22,25 @@ struct LostNode {
   std::string text;  // goes on after "node 'x' …"
 };
 
+// How a node says that it ended: a line on its process' standard error, which needs no network and is there when the
+// process is gone. Whatever started the process passes it on to the clock.
+struct LastWord {
+  std::string node;
+  std::uint32_t incarnation = 0;
+  lockstep::Phase phase = lockstep::Phase::kFailed;  // kFailed, kRefused or kLost
+  lockstep::Step step = 0;                           // the next activation
+  std::string text;                                  // as Report::message
+};
+// The line begins with it; "PHASE STEP TEXT" follows.
+inline constexpr std::string_view kLastWord = "rodeira: end: ";
+// Writes the line where the report is that of a node which failed, was refused or told to end; else nothing.
+void WriteLastWord(const lockstep::Report& report);
+// "NODE INCARNATION PHASE STEP TEXT"; nothing where it is not of that form.
+std::optional<LastWord> ParseLastWord(std::string_view text);
+
 // What `rodeira run` writes to the standard input of the clock that it started, a line each:
-//   lost NODE INCARNATION TEXT   a process of this PC died or was stopped; seen sooner than by any heartbeat
-//   exited NODE INCARNATION TEXT a process of this PC has ended by itself: why its node will be silent, if it is
+//   lost NODE INCARNATION TEXT   a process of this PC died, was stopped or left without a last word
+//   said NODE INCARNATION PHASE STEP TEXT  the last word of a process of this PC
 //   do NUMBER COMMAND            an operator's command
 //   abort                        an orderly stop takes too long
 // Other lines are ignored. All functions from any thread.
@@ -39,7 +56,7 @@ class SupervisorPipe {
   base::Status Listen(int descriptor, std::function<void()> on_line);
 
   std::vector<LostNode> TakeLost();         // each once
-  std::vector<LostNode> TakeExited();       // each once
+  std::vector<LastWord> TakeLastWords();    // each once
   std::vector<std::string> TakeCommands();  // "NUMBER COMMAND", each once
   bool must_abort() const;
   // The other end is closed: `rodeira run` has ended, however it did.
@@ -52,7 +69,8 @@ class SupervisorPipe {
   bool Take(std::string_view line);
 
   mutable std::mutex mutex_;
-  std::vector<LostNode> lost_, exited_;
+  std::vector<LostNode> lost_;
+  std::vector<LastWord> last_words_;
   std::vector<std::string> commands_;
   bool must_abort_ = false;
   bool is_closed_ = false;

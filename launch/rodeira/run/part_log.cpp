@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "common/runtime/dds/supervisor_pipe.hpp"
+
 namespace rodeira::cli {
 namespace {
 
@@ -25,9 +27,10 @@ spdlog::level::level_enum LevelOf(const std::string& line) {
   return line.starts_with("rodeira") ? spdlog::level::err : spdlog::level::info;
 }
 
-// Written by base::TraceCrashes and by Fast DDS: for the log and the report of the failure, too much for a terminal.
+// Written by base::TraceCrashes, by a node that ends, and by Fast DDS: for the log and the report of the failure, too
+// much for a terminal.
 bool IsForLogAlone(const std::string& line) {
-  return line.starts_with(kCrash) || line.starts_with("rodeira: Fast DDS: ") ||
+  return line.starts_with(kCrash) || line.starts_with(dds::kLastWord) || line.starts_with("rodeira: Fast DDS: ") ||
          (line.ends_with(']') && line.find(")[0x") != std::string::npos);
 }
 
@@ -84,6 +87,7 @@ void PartLog::Take(std::string line) {
   if (file_) file_->log(LevelOf(line), line);
   if (!IsForLogAlone(line)) std::fprintf(stderr, "%s\n", line.c_str());
   if (auto place = CrashPlace(line); !place.empty()) crash_place_ = std::move(place);
+  if (line.starts_with(dds::kLastWord)) last_word_ = line.substr(dds::kLastWord.size());
   last_lines_.push_back(std::move(line));
   if (last_lines_.size() > kLastLines) last_lines_.pop_front();
 }

@@ -29,8 +29,13 @@ class PartLog {
   // The foreign code that the part's process crashed in, by base::TraceCrashes ("fmi2DoStep of FMU 'a.fmu'"); empty: it
   // has not crashed, or not in foreign code.
   const std::string& crash_place() const { return crash_place_; }
+  // What the process said of its own end (dds::kLastWord): "PHASE STEP TEXT"; empty: nothing.
+  const std::string& last_word() const { return last_word_; }
   // Another process of the part begins.
-  void ForgetCrash() { crash_place_.clear(); }
+  void ForgetEnd() {
+    crash_place_.clear();
+    last_word_.clear();
+  }
 
   const std::deque<std::string>& last_lines() const { return last_lines_; }  // at most kLastLines
   static constexpr std::size_t kLastLines = 100;
@@ -43,6 +48,7 @@ class PartLog {
   std::string rest_;
   std::deque<std::string> last_lines_;
   std::string crash_place_;
+  std::string last_word_;
   std::shared_ptr<spdlog::logger> file_;
   bool is_opened_ = false;
 };

@@ -83,6 +83,7 @@ class ProcessRun {
     if (auto status = processes_.RestartClock(place); !status) return status;
     pending_.clear();
     told_.clear();  // the old one may have died before it heard
+    exits_told_.clear();
     const base::Error lost = base::Failed("run.clock_lost", "the clock was lost; ask again");
     for (const auto& [number, answer] : answers_) answer(launch::AnswerLine(lost));
     answers_.clear();
@@ -104,11 +105,13 @@ class ProcessRun {
     while (true) {
       ReadClock(50);
       // Beside a clock elsewhere nothing begins before it is met: this PC may wait for the others as long as it likes.
-      if (report_.met && !processes_.has_nodes()) {
+      if (report_.met && !processes_.has_nodes() && NetworkRuns()) {
         if (auto status = processes_.StartNodes(); !status) return status;
       }
-      for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
-        if (auto status = RestartNode(wish); !status) return status;
+      if (!report_.wanted.empty() && NetworkRuns()) {
+        for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
+          if (auto status = RestartNode(wish); !status) return status;
+        }
       }
       for (const std::string& reason : std::exchange(report_.paused_by, {})) {
         Tell(reason +
@@ -136,12 +139,12 @@ class ProcessRun {
       }
       for (const Child& child : processes_.children()) {
         if (&child == &clock) continue;
-        if (Broken(child)) {
-          TellClock(child);
-        } else if (!child.ended()) {
-          told_.erase(child.name());  // it goes on
-        } else {
+        if (!child.last_word().empty() || LeftByItself(child)) {
           TellExit(child);
+        } else if (child.stopped() || child.ended()) {
+          TellClock(child);
+        } else {
+          told_.erase(child.name());  // it goes on
         }
       }
       const int interrupts = g_interrupts;
@@ -184,22 +187,21 @@ class ProcessRun {
     waiting->second(std::string(line));
     answers_.erase(waiting);
   }
-  // Dead or stopped though the run is not over. A node that left with a sentence has told the clock itself.
-  bool Broken(const Child& child) const {
-    if (report_.ended || !fault_.empty()) return false;
-    if (child.stopped()) return true;
-    if (!child.ended()) return false;
-    const bool by_itself = child.exit_status() && *child.exit_status() <= 2 && !child.ended_by_foreign_code();
-    return !by_itself || WallClock::now() - child.ended_at() > 1s;
+  static bool LeftByItself(const Child& child) {
+    return child.ended() && child.exit_status() && *child.exit_status() <= 2 && !child.ended_by_foreign_code();
   }
-  // Only why the node is silent: whether it is lost, the clock finds by its reports.
+  // The node's last word; without one the node is lost. The clock knows whether the run goes on without it: a node may
+  // leave before the clock's closing words are read here.
   void TellExit(const Child& child) {
     const std::uint32_t incarnation = processes_.incarnation(child.name());
     if (!exits_told_.emplace(child.name(), incarnation).second) return;
-    processes_.clock().Send(fmt::format("exited {} {} {}", child.name(), incarnation, child.Fate()));
+    const std::string word = child.last_word();
+    processes_.clock().Send(word.empty() ? fmt::format("lost {} {} {}", child.name(), incarnation, child.Fate())
+                                         : fmt::format("said {} {} {}", child.name(), incarnation, word));
   }
+  // Dead or stopped though the run is not over.
   void TellClock(const Child& broken) {
-    if (!told_.insert(broken.name()).second) return;
+    if (report_.ended || !fault_.empty() || !told_.insert(broken.name()).second) return;
     const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
     if (node.recovery == lockstep::Policy::kStop)
       Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
@@ -219,6 +221,9 @@ class ProcessRun {
     clocks_last_step_ = report_.step;
     return clocks_losses_ < 4;
   }
+  // Packets arrive up to a second before an interface counts as running; Fast DDS passes over one that does not run
+  // when a process starts, for good.
+  bool NetworkRuns() const { return !dds::NetworkProblem(network_need_, dds::ReadNetworkState()); }
   // An interface that goes away is named before the nodes that are no longer heard.
   void LookAtNetwork() {
     const auto problem = dds::NetworkProblem(network_need_, dds::ReadNetworkState());

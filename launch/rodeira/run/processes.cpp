@@ -75,7 +75,7 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
     ::fcntl(errors.out, F_SETFL, O_NONBLOCK);
     child.error_ = std::exchange(errors.out, -1);
     child.log_ = log;
-    log->ForgetCrash();
+    log->ForgetEnd();
   }
   return child;
 }

@@ -76,7 +76,8 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   EXPECT_FALSE(pipe.is_waiting());
   const std::string text =
       "do 1 pause\nlost ego 3 was killed by signal 9 (Killed)\nnonsense\nlost\nlost x\nlost x y z\nlost road 0\n\n"
-      "exited view 1 left with status 0\nexited\n"
+      "said view 1 refused 12 a sentence: it is  whole\nsaid\nsaid view 1 running 2 x\nsaid view 1 failed x y\n"
+      "said view 1 failed -1 y\nsaid view 2 lost 3 \n"
       "do 2 mark a b  c\n";
   for (const char one : text) Write(std::string(1, one));
   EXPECT_EQ(CommandsThrough(pipe, "2 mark a b  c"), (std::vector<std::string>{"1 pause", "2 mark a b  c"}));
@@ -86,11 +87,15 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   EXPECT_EQ(lost[0].incarnation, 3u);
   EXPECT_EQ(lost[0].text, "was killed by signal 9 (Killed)");
   EXPECT_EQ(lost[1].text, "was lost");
-  const std::vector<LostNode> exited = pipe.TakeExited();
-  ASSERT_EQ(exited.size(), 1u);
-  EXPECT_EQ(exited[0].node, "view");
-  EXPECT_EQ(exited[0].incarnation, 1u);
-  EXPECT_EQ(exited[0].text, "left with status 0");
+  const std::vector<LastWord> words = pipe.TakeLastWords();
+  ASSERT_EQ(words.size(), 2u);
+  EXPECT_EQ(words[0].node, "view");
+  EXPECT_EQ(words[0].incarnation, 1u);
+  EXPECT_EQ(words[0].phase, lockstep::Phase::kRefused);
+  EXPECT_EQ(words[0].step, 12);
+  EXPECT_EQ(words[0].text, "a sentence: it is  whole");
+  EXPECT_EQ(words[1].phase, lockstep::Phase::kLost);
+  EXPECT_EQ(words[1].text, "");
   EXPECT_FALSE(pipe.must_abort());
   Write("abort\ndo 3 stop\n");
   (void)CommandsThrough(pipe, "3 stop");
@@ -103,6 +108,32 @@ TEST_F(SupervisorPipeTest, ALineWithoutAnEndIsDroppedAndTheNextOneCounts) {
   for (int i = 0; i < 400; ++i) Write(std::string(4096, 'x'));
   Write("\ndo 1 stop\n");
   EXPECT_EQ(CommandsThrough(pipe, "1 stop").back(), "1 stop");
+}
+
+// What a process writes at its end is read back as it is, but for ends of lines.
+TEST_F(SupervisorPipeTest, TheLastWordOfANodeIsOneLine) {
+  lockstep::Report report;
+  report.progress = 7;
+  for (const auto phase : {lockstep::Phase::kRunning, lockstep::Phase::kFinished, lockstep::Phase::kAborted}) {
+    report.phase = phase;
+    ::testing::internal::CaptureStderr();
+    WriteLastWord(report);
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "no word of an end that another part has caused";
+  }
+  report.message = "two\nlines";
+  for (const auto phase : {lockstep::Phase::kFailed, lockstep::Phase::kRefused, lockstep::Phase::kLost}) {
+    report.phase = phase;
+    ::testing::internal::CaptureStderr();
+    WriteLastWord(report);
+    const std::string line = ::testing::internal::GetCapturedStderr();
+    ASSERT_TRUE(line.starts_with(kLastWord) && line.ends_with("\n")) << line;
+    const auto word = ParseLastWord("ego 3 " + line.substr(kLastWord.size(), line.size() - kLastWord.size() - 1));
+    ASSERT_TRUE(word) << line;
+    EXPECT_EQ(word->phase, phase);
+    EXPECT_EQ(word->step, 7);
+    EXPECT_EQ(word->incarnation, 3u);
+    EXPECT_EQ(word->text, "two lines");
+  }
 }
 
 // The thread has ended when the pipe is gone, whatever it was about to call.

@@ -81,8 +81,17 @@ TEST_F(PartLogTest, RemembersTheForeignCodeOfACrashUntilTheNextProcess) {
   EXPECT_EQ(log_->crash_place(), "fmi2DoStep of FMU '/a in b/car.fmu' (instance 'ego')");
   (void)Write("rodeira: crash: exit in fmi2DoStep of FMU 'c.fmu'\n");
   EXPECT_EQ(log_->crash_place(), "fmi2DoStep of FMU 'c.fmu'");
-  log_->ForgetCrash();
+  log_->ForgetEnd();
   EXPECT_EQ(log_->crash_place(), "");
+}
+
+TEST_F(PartLogTest, TheLastWordOfANodeIsKeptUntilTheNextProcessButNotPrinted) {
+  EXPECT_EQ(log_->last_word(), "");
+  EXPECT_EQ(Write("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\nrodeira: more\n"), "rodeira: more\n");
+  EXPECT_EQ(log_->last_word(), "refused 0 a.yaml:3: unknown key 'x'");
+  EXPECT_THAT(File(), HasSubstr("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"));
+  log_->ForgetEnd();
+  EXPECT_EQ(log_->last_word(), "");
 }
 
 TEST_F(PartLogTest, FilesAreRotatedAndOldLinesForgotten) {
