@@ -2,9 +2,12 @@
 #include "launch/rodeira/files_from_here.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <string_view>
 #include <system_error>
 
+#include "common/core/base/nearest_file.hpp"
 #include "common/core/config/quoted.hpp"
 
 namespace rodeira::cli {
@@ -20,13 +23,24 @@ bool IsFile(const std::string& word) {
   return can_be && fs::is_regular_file(word, problem);
 }
 
-// A file that is in neither place, in a folder of the current directory alone: a misspelt name.
+// `2.5`, `10.0.0.1` and `pc.lan` are no files; these are, also without a folder before them.
+bool HasExtensionOfAFile(const fs::path& path) {
+  constexpr std::array<std::string_view, 10> kExtensions = {".yaml", ".yml",  ".xodr", ".csv", ".bt",
+                                                            ".crg",  ".mcap", ".fmu",  ".so",  ".motors"};
+  return std::ranges::find(kExtensions, path.extension().string()) != kExtensions.end();
+}
+
+// A file that is in neither place, a misspelt name: in a folder of the current directory alone, or without a folder
+// where no file beside the launch file alone has nearly that name.
 bool IsMissingHere(const std::string& word, const fs::path& launch_folder) {
   std::error_code problem;
   const fs::path path(word);
-  return path.is_relative() && path.has_parent_path() && path.has_extension() &&
-         fs::is_directory(path.parent_path(), problem) && !fs::exists(path, problem) &&
-         !fs::exists(launch_folder / path.parent_path(), problem);
+  if (!path.is_relative() || fs::exists(path, problem)) return false;
+  if (path.has_parent_path())
+    return path.has_extension() && fs::is_directory(path.parent_path(), problem) &&
+           !fs::exists(launch_folder / path.parent_path(), problem);
+  return HasExtensionOfAFile(path) && !fs::exists(launch_folder / path, problem) &&
+         (!base::NearestFile(path).empty() || base::NearestFile(launch_folder / path).empty());
 }
 
 std::string Replace(const std::string& value, const std::function<std::string(const std::string&)>& rename) {

@@ -16,7 +16,8 @@ std::string WithFilesFromHere(const std::string& value);
 
 // The same for all overrides, with paths relative to the launch file's folder: PCs with the same folders agree on them.
 // A recorder's `config.file` stays, it is written. A missing file is sought here, too, where only the current directory
-// has its folder: the error then names the nearest file there.
+// has its folder, or its name has none and no file of nearly that name lies beside the launch file alone: the error
+// then names the nearest file here.
 launch::Overrides WithFilesFromHere(const launch::Overrides& overrides, const std::filesystem::path& launch_file);
 
 }  // namespace rodeira::cli

@@ -52,6 +52,18 @@ TEST_F(FilesFromHere, AMissingFileIsSoughtWhereItsFolderIs) {
   EXPECT_EQ(Value("nodes.ego.config.vehicle", "cars/kart.yaml"), "cars/kart.yaml") << "the launch file has this folder";
 }
 
+TEST_F(FilesFromHere, AMissingNameWithoutAFolderIsSoughtHere) {
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "truck.yaml"), "\"../here/truck.yaml\"");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "cart.yaml"), "\"../here/cart.yaml\"") << "kart.yaml lies here";
+  folder_.Write("launch/articulated_lorry.yaml", "");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "articulated_lorry.yaml"), "articulated_lorry.yaml")
+      << "it lies beside the launch file";
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "articulated_lory.yaml"), "articulated_lory.yaml")
+      << "nearly one beside the launch file";
+  for (const char* no_file : {"2.5", "10.0.0.1", "pc.lan", "v1.2-rc", "car"})
+    EXPECT_EQ(Value("discovery.interface", no_file), no_file);
+}
+
 TEST_F(FilesFromHere, FarFromTheLaunchFileItIsAbsolute) {
   const fs::path deep = folder_.path() / "a/b/c/d/e/f/g/h/i/demo.yaml";
   const auto value = WithFilesFromHere({{"world", "kart.yaml"}}, deep).front().second;
