@@ -24,6 +24,7 @@ const std::vector<Manoeuvre>& Manoeuvres() {
       {"constant_radius", "a circle of 40 m, faster and faster", ConstantRadius},
       {"step_steer", "at 100 km/h, to 4 m/s²", StepSteer},
       {"sine", "at 80 km/h, 0.5 Hz", Sine},
+      {"sine_with_dwell", "at 80 km/h, one sine of 0.7 Hz that dwells at its second peak", SineWithDwell},
       {"lane_change", "at 80 km/h, 3.5 m to the left and back", LaneChange},
       {"park", "a minute on a slope of 20 %, handbrake", Park},
       {"bump", "at 40 km/h, 5 cm high, 0.5 m long", Bump},

@@ -62,6 +62,11 @@ base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s);
 // At 80 km/h the steering wheel goes to and fro at 0.5 Hz, for about 2 m/s²: gain and delay of yaw rate and lateral
 // acceleration, from the third period on.
 base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s);
+// At 80 km/h with the clutch out one sine of the steering wheel of 0.7 Hz that dwells for 0.5 s at its second peak (UN
+// R140, annex 3), with 6.5 times the angle at which the car slowly comes to 0.3 g, at least 270 and at most 300
+// degrees: yaw rate over its second peak 1.00 and 1.75 s after the steering has ended, displacement 1.07 s after it
+// began.
+base::Result<Outcome> SineWithDwell(dynamics::VehicleModel& car, double step_s);
 // At 80 km/h into the lane 3.5 m to the left and back, sections of 15, 30, 25, 25 and 30 m (after ISO 3888-1), by a
 // driver who looks ahead: how far it strays, largest lateral acceleration and steering speed.
 base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s);

@@ -11,6 +11,7 @@
 #include "common/vehicle/dynamics/multibody_settings.hpp"
 #include "common/vehicle/dynamics/wheel_drive.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
+#include "common/vehicle/multibody/joints.hpp"
 #include "common/vehicle/multibody/output.hpp"
 #include "common/vehicle/multibody/system.hpp"
 
@@ -41,6 +42,8 @@ class MultibodyModel final : public VehicleModel {
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   std::vector<std::string> output_names() const override;
   std::vector<double> Outputs() const override;
+  bool has_joint_forces() const override { return true; }
+  JointForces FindJointForces() override;
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
 
@@ -80,6 +83,7 @@ class MultibodyModel final : public VehicleModel {
   WheelTorques TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
                           const std::array<TyreForces, kWheels>& forces, double dt_s);
   void Advance(double dt_s, int depth);
+  multibody::Balance FindBalance() const;
   // INI.
   struct Cruise;  // of a car that keeps its speed
   base::Status Settle(const InitialCondition& initial, ground::Ground& ground, Cruise& cruise);
@@ -105,6 +109,7 @@ class MultibodyModel final : public VehicleModel {
       Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
   std::array<Eigen::Vector3d, kWheels> hub_rest_B_;
   std::vector<multibody::Output> outputs_;
+  std::vector<multibody::Joint> joints_;  // found when they are first asked for
 
   std::array<Wheel, kWheels> wheels_;
   Powertrain powertrain_;

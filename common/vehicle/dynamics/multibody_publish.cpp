@@ -10,24 +10,6 @@
 
 namespace rodeira::dynamics {
 
-void MultibodyModel::ReadOutputs(const config::Map& root) {
-  const config::Map mechanism = root.Child("mechanism");
-  if (mechanism.Has("outputs"))
-    outputs_ = multibody::ReadOutputs(mechanism, multibody::DrawingReader(mechanism), *system_);
-}
-
-std::vector<std::string> MultibodyModel::output_names() const {
-  std::vector<std::string> names;
-  for (const multibody::Output& output : outputs_) names.push_back(output.name);
-  return names;
-}
-
-std::vector<double> MultibodyModel::Outputs() const {
-  std::vector<double> values;
-  for (const multibody::Output& output : outputs_) values.push_back(output.ValueOf(*system_));
-  return values;
-}
-
 void MultibodyModel::Publish(const Controls& controls, double dt_s) {
   VehicleState& s = state_;
   const Eigen::Isometry3d pose = X_WB();

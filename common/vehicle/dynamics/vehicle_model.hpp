@@ -18,6 +18,7 @@
 #include "common/core/config/config.hpp"
 #include "common/core/ground/ground.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
+#include "common/vehicle/dynamics/joint_forces.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
 namespace rodeira::dynamics {
@@ -133,6 +134,12 @@ class VehicleModel {
   /// Gives the additional outputs.
   /// @return the values after the last step, in the order of output_names
   virtual std::vector<double> Outputs() const { return {}; }
+  /// Says whether the model has joints (FindJointForces).
+  /// @return true if it does
+  virtual bool has_joint_forces() const { return false; }
+  /// Finds the forces inside the car after the last step. It changes no state.
+  /// @return the forces; empty without joints
+  virtual JointForces FindJointForces() { return {}; }
   /// Explains a failed step: the car stays at its position. The run ends with this error.
   /// @return an error if the model failed in the last Step
   virtual base::Status problem() const { return {}; }

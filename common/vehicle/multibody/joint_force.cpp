@@ -38,7 +38,7 @@ bool HasPart(const std::vector<Form::Part>& parts, int body) {
 
 }  // namespace
 
-base::Result<JointForce> JointForce::Make(const System& system, int body, int point) {
+base::Result<JointForce> JointForce::Make(const System& system, int body, int point, SharedDistance shared) {
   const Drawing& drawing = system.drawing();
   const BodyParts& parts = drawing.bodies[static_cast<std::size_t>(body)];
   const std::string& name = drawing.body_names[static_cast<std::size_t>(body)];
@@ -57,6 +57,10 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   for (const RowDrawing& row : parts.rows) force.rows_.emplace_back(Row(row, all_free), Find(system, row.name));
   for (const Tie& tie : parts.ties) force.ties_.emplace_back(tie, Find(system, tie.name));
   const auto unknown = [](const auto& each) { return each.second < 0; };
+  if (shared == SharedDistance::kOfTheEarlierBody) {
+    std::erase_if(force.rows_, unknown);
+    std::erase_if(force.ties_, unknown);
+  }
   if (std::any_of(force.rows_.begin(), force.rows_.end(), unknown) ||
       std::any_of(force.ties_.begin(), force.ties_.end(), unknown)) {
     return base::WrongInput(
@@ -84,9 +88,15 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   return force;
 }
 
-Vector3d JointForce::Now(const System& system) const {
-  const double* qdd = system.qdd().data();
-  const auto of = [qdd](int entity) { return Vector3d(Eigen::Map<const Vector3d>(qdd + 3 * entity)); };
+Vector3d JointForce::Now(const System& system) const { return Total(system, system.qdd(), system.multipliers()); }
+
+Vector3d JointForce::In(const System& system, const Balance& balance) const {
+  return Total(system, balance.qdd, balance.multipliers);
+}
+
+Vector3d JointForce::Total(const System& system, std::span<const double> qdd,
+                           std::span<const double> multipliers) const {
+  const auto of = [qdd](int entity) { return Vector3d(Eigen::Map<const Vector3d>(qdd.data() + 3 * entity)); };
   Vector3d force = Vector3d::Zero();
   for (const MassTerm& term : mass_) {
     if (term.row == point_) force += term.a * of(term.column) + term.b * AboutZ(of(term.column));
@@ -99,7 +109,6 @@ Vector3d JointForce::Now(const System& system) const {
   Sink sink = Sink::OfBody(body_, loads.data());
   for (const NamedLoad& named : system.drawing().loads) named.load->Add(system.motion(), sink);
   force -= Vector3d(Eigen::Map<const Vector3d>(loads.data() + 3 * point_));
-  const auto multipliers = system.multipliers();
   std::vector<Triple> gradients;
   const auto pull = [&](const Row& row, const double* q, int index) {
     gradients.assign(row.entities().size(), Triple{});

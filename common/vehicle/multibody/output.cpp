@@ -40,6 +40,12 @@ double Output::ValueOf(const System& system) const {
   return 0.0;
 }
 
+double Output::ValueOf(const System& system, const Balance& balance) const {
+  if (kind_ == Kind::kReaction) return balance.multipliers[static_cast<std::size_t>(index_)];
+  if (kind_ == Kind::kJoint) return joint_->In(system, balance)[component_];
+  return ValueOf(system);
+}
+
 class OutputReader {
  public:
   OutputReader(const config::Map& outputs, const DrawingReader& reader, const System& system)

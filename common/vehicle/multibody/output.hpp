@@ -16,7 +16,10 @@ namespace rodeira::multibody {
 class Output {
  public:
   std::string name;
+  // By what the last step left.
   double ValueOf(const System& system) const;
+  // Reactions and joint forces by System::FindBalance.
+  double ValueOf(const System& system, const Balance& balance) const;
 
  private:
   friend class OutputReader;

@@ -191,47 +191,54 @@ base::Status System::FindVelocities() {
   return {};
 }
 
-bool System::FindAccelerations() {
+bool System::SolveAccelerations(std::vector<double>& qdd, std::vector<double>& lambda) {
   constexpr int kMaxTurns = 50;
-  earlier_s_ = 0.0;
-  newton_ = {};
   constraints_.Evaluate(q_.data(), time_s_);
   std::copy(constant_.begin(), constant_.end(), matrix_.values().begin());
   constraints_.AddRows(weight_, matrix_.values().data());
   if (!matrix_.Factorise()) return false;
   SumForces(nullptr, 0.0, 0.0);
   constraints_.Bias(q_.data(), qd_.data(), time_s_, bias_.data());
-  std::fill(qdd_.begin(), qdd_.end(), 0.0);
-  std::fill(lambda_.begin(), lambda_.end(), 0.0);
+  qdd.assign(q_.size(), 0.0);
+  lambda.assign(mu_.size(), 0.0);
   double before = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < kMaxTurns; ++turn) {
     // M qdd + Φqᵀ λ = Q with λ += w (Φq qdd + bias): the remainder goes through the same matrix.
-    constraints_.Multiply(qdd_.data(), mu_.data());
+    constraints_.Multiply(qdd.data(), mu_.data());
     double most = 0.0;
     for (std::size_t i = 0; i < mu_.size(); ++i) {
       mu_[i] += bias_[i];
       most = std::max(most, std::fabs(mu_[i]));
     }
     for (std::size_t i = 0; i < mu_.size(); ++i) {
-      if (turn > 0) lambda_[i] += weight_ * mu_[i];
-      mu_[i] = lambda_[i] + weight_ * mu_[i];
+      if (turn > 0) lambda[i] += weight_ * mu_[i];
+      mu_[i] = lambda[i] + weight_ * mu_[i];
     }
     std::fill(residual_.begin(), residual_.end(), 0.0);
-    MultiplyMass(qdd_.data(), residual_.data());
+    MultiplyMass(qdd.data(), residual_.data());
     for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] -= forces_[i];
     constraints_.AddTransposed(mu_.data(), residual_.data());
     Mask(residual_.data());
     matrix_.Solve(residual_.data(), change_.data());
-    for (std::size_t i = 0; i < qdd_.size(); ++i) qdd_[i] -= change_[i];
+    for (std::size_t i = 0; i < qdd.size(); ++i) qdd[i] -= change_[i];
     const double changed = FreeMaximum(change_.data());
     if (!std::isfinite(changed)) return false;
-    if (turn > 2 && changed >= before && most < 1e-6 * (1.0 + FreeMaximum(qdd_.data()))) break;  // as good as it gets
+    if (turn > 2 && changed >= before && most < 1e-6 * (1.0 + FreeMaximum(qdd.data()))) break;  // as good as it gets
     if (turn > 0 && changed == 0.0) break;
     before = changed;
   }
+  return true;
+}
+
+bool System::FindAccelerations() {
+  earlier_s_ = 0.0;
+  newton_ = {};
+  if (!SolveAccelerations(qdd_, lambda_)) return false;
   reactions_ = lambda_;
   return true;
 }
+
+bool System::FindBalance(Balance& balance) { return SolveAccelerations(balance.qdd, balance.multipliers); }
 
 base::Status System::Start() {
   if (auto status = Assemble(); !status) return status;

@@ -56,6 +56,12 @@ struct Contraction {
   void Learn(int turns, double changed, double changed_before);
 };
 
+// Accelerations of all coordinates and multipliers of all constraints that fulfil M qdd + Φqᵀ multipliers = Q.
+struct Balance {
+  std::vector<double> qdd;
+  std::vector<double> multipliers;
+};
+
 // A mechanism in natural coordinates. Equations of motion by the index-3 augmented Lagrangian with projections of
 // velocities and accelerations and the trapezoidal rule (Cuadrado, Cardenal, Morer, Bayo, Multibody System Dynamics 4
 // (2000) 55-73):
@@ -110,6 +116,10 @@ class System {
   // Forces (torques) of the constraints, in the constraints' order; positive pulls the row's value down. They belong to
   // qdd() as it has been projected: M qdd + Φqᵀ multipliers = Q. After Restore: from the next step on.
   std::span<const double> multipliers() const { return reactions_; }
+  // Accelerations and multipliers that belong to position and velocity, solved anew; the state stays as it is.
+  // multipliers() contains the weight of the constraints' violation, which rounding of positions far from the origin
+  // makes: some 100 N at 5 km. These have none of it. False where the equations are singular.
+  [[nodiscard]] bool FindBalance(Balance& balance);
   double KineticEnergy() const;
   // Of weight and of the loads that have one.
   double PotentialEnergy() const;
@@ -140,6 +150,7 @@ class System {
   bool Project(std::vector<double>& v, double wanted, double accepted, StepReport& report);
   bool ProjectVelocities(StepReport& report);
   bool ProjectAccelerations(StepReport& report);
+  bool SolveAccelerations(std::vector<double>& qdd, std::vector<double>& lambda);
   void Correct(std::vector<double>& v);
   bool Refresh(double dt_s, StepReport& report);
 

@@ -12,6 +12,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/log.hpp"
 #include "common/core/base/print_error.hpp"
+#include "common/driving/manoeuvres/force_trace.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/vehicle/dynamics/vehicle_notes.hpp"
 #include "launch/rodeira/commands/rig_command.hpp"
@@ -64,6 +65,15 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
   return {};
 }
 
+base::Status WriteForces(const VehicleOptions& options, const manoeuvres::Manoeuvre& manoeuvre,
+                         const manoeuvres::ForceTrace& trace) {
+  const std::string base = options.out + "/" + manoeuvre.name + "_forces";
+  if (auto status = base::WriteWhole(base + ".csv", plot::ToCsv(trace.ForceTable())); !status) return status;
+  const std::string title = fmt::format("{}: forces in joints and springs, {}",
+                                        std::filesystem::path(options.file).filename().string(), manoeuvre.name);
+  return base::WriteWhole(base + ".svg", plot::ToSvg(trace.Diagrams(), title, 3));
+}
+
 int TestVehicle(const VehicleOptions& options) {
   const auto chosen = Chosen(options);
   if (!chosen) return base::PrintError("rodeira", chosen.error());
@@ -72,11 +82,18 @@ int TestVehicle(const VehicleOptions& options) {
   if (!car) return base::PrintError("rodeira", car.error());
   for (const std::string& note : dynamics::NotesOn(*car.value(), options.file))
     base::Log(base::LogLevel::kWarning, "", note);
+  if (options.forces && !car.value()->has_joint_forces())
+    return base::PrintError("rodeira", base::WrongInput("vehicle.no_joints",
+                                                        "--forces was found, but the vehicle has no joints; a vehicle "
+                                                        "file with 'model: multibody' was expected",
+                                                        options.file));
+  manoeuvres::ForceTrace trace(*car.value());
+  dynamics::VehicleModel& driven = options.forces ? trace : *car.value();
   const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   int status = 0;
   for (const manoeuvres::Manoeuvre* manoeuvre : chosen.value()) {
     if (shown) fmt::print(stderr, "\r\033[K{} …", manoeuvre->name);
-    const auto outcome = manoeuvres::Drive(*manoeuvre, *car.value(), options.step_s);
+    const auto outcome = manoeuvres::Drive(*manoeuvre, driven, options.step_s);
     if (shown) fmt::print(stderr, "\r\033[K");
     if (!options.quiet) fmt::print("{}: {}\n", manoeuvre->name, manoeuvre->what);
     if (!outcome) {
@@ -90,6 +107,9 @@ int TestVehicle(const VehicleOptions& options) {
       if (!options.quiet) fmt::print("  not measured: {}\n", reason);
     }
     if (auto written = Write(options, *manoeuvre, outcome.value().table); !written)
+      return base::PrintError("rodeira", written.error());
+    if (!options.forces) continue;
+    if (auto written = WriteForces(options, *manoeuvre, trace); !written)
       return base::PrintError("rodeira", written.error());
   }
   if (!options.quiet && !options.out.empty()) fmt::print("wrote {}\n", options.out);

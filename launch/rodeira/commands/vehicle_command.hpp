@@ -15,6 +15,7 @@ struct VehicleOptions {
   std::string svg;
   std::string out;         // folder: both, of each; of the rig its tables and diagrams
   double travel_m = 0.06;  // of the rig, up and down
+  bool forces = false;     // of joints and springs, in two more files of each manoeuvre
   bool quiet = false;
 };
 

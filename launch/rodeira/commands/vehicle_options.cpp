@@ -20,13 +20,17 @@ void AddVehicle(CLI::App& app, ChosenCommand& chosen) {
   };
   CLI::App* test = vehicle->add_subcommand("test", "drive the usual manoeuvres and print their figures");
   test->add_option("VEHICLE.yaml", options->file, "vehicle file, or its name (default)")->required();
-  test->add_option("--manoeuvre", options->manoeuvres,
-                   "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; "
-                   "otherwise all");
+  test->add_option(
+      "--manoeuvre", options->manoeuvres,
+      "acceleration, braking, split_friction, constant_radius, step_steer, sine, sine_with_dwell, lane_change, park, "
+      "bump; otherwise all");
   test->add_option("--step", options->step_s, "step in seconds")->capture_default_str();
   test->add_option("--csv", options->csv, "write the motion over time into this file")->check(NewFile());
   test->add_option("--svg", options->svg, "draw it into this file")->check(NewFile());
-  test->add_option("--out", options->out, "folder: NAME.csv and NAME.svg of each manoeuvre");
+  CLI::Option* out = test->add_option("--out", options->out, "folder: NAME.csv and NAME.svg of each manoeuvre");
+  test->add_flag("--forces", options->forces,
+                 "also NAME_forces.csv and NAME_forces.svg: forces in the joints and springs of a multibody car")
+      ->needs(out);
   test->add_flag("--quiet", options->quiet, "no progress, no table");
   chosen.When(*test, run("test"));
   CLI::App* rig =

@@ -10,6 +10,7 @@
 #include <complex>
 
 #include "common/core/geometry/angle.hpp"
+#include "common/driving/manoeuvres/force_trace.hpp"
 #include "common/driving/manoeuvres/proving_ground.hpp"
 #include "common/driving/manoeuvres/trial.hpp"
 #include "common/vehicle/dynamics/multibody_model.hpp"
@@ -220,6 +221,42 @@ TEST(Manoeuvres, BrakingHalfOnIceTurnsToTheSideWithGrip) {
   for (std::size_t row = 0; row < outcome.table.rows(); ++row) heading = std::max(heading, outcome.table.At(row, 3));
   EXPECT_GT(heading, 5.0);
   EXPECT_GT(Value(outcome, "drift to the left"), 0.1);
+}
+
+// Without losses of speed the linear car's yaw rate is its two equations' answer to the same steering (here with angles
+// far beyond what tyres have: the linear car has no limit), and nothing of it is left 1 s after the end.
+TEST(Manoeuvres, TheSineWithDwellAnswersAsTheLinearModelDoes) {
+  const LinearCar linear;
+  BicycleModel car = linear.Make();
+  const Outcome outcome = Driven(SineWithDwell(car, kStep_s));
+  const double ratio = car.dimensions().steering_ratio, V = 80.0 / 3.6;
+  const double steady = V / (2.7 + linear.UndersteerGradient() * V * V);  // yaw rate over the front wheels' angle
+  const double slow_deg = 0.3 * kG_mps2 / V / steady * ratio * kDegrees;
+  EXPECT_NEAR(Value(outcome, "steering wheel at 0.3 g"), slow_deg, 0.1 * slow_deg);
+  EXPECT_EQ(Value(outcome, "steering wheel"),
+            std::clamp(6.5 * Value(outcome, "steering wheel at 0.3 g"), 270.0, 300.0));
+  EXPECT_LT(Value(outcome, "yaw rate 1.00 s after the end"), 5.0);
+  EXPECT_LT(Value(outcome, "yaw rate 1.75 s after the end"), 5.0);
+  EXPECT_GT(Value(outcome, "aside 1.07 s after the beginning"), 1.83);
+}
+
+// The trace drives the same course as the car alone; its forces are those that the car gives at the end.
+TEST(Manoeuvres, ForcesInJointsAreTracedWithoutChangingTheCourse) {
+  auto alone = dynamics::MakeModel(dynamics::kMultibody), traced = dynamics::MakeModel(dynamics::kMultibody);
+  ForceTrace trace(*traced);
+  const Outcome expected = Driven(Bump(*alone, kStep_s)), found = Driven(Bump(trace, kStep_s));
+  EXPECT_EQ(found.table.values, expected.table.values);
+  const plot::Table forces = trace.ForceTable();
+  ASSERT_EQ(forces.rows(), found.table.rows());
+  const auto column = std::ranges::find(forces.names, "fl_damper_N") - forces.names.begin();
+  ASSERT_LT(static_cast<std::size_t>(column), forces.names.size());
+  const auto rests = forces.At(0, static_cast<std::size_t>(column));
+  double least = rests;
+  for (std::size_t row = 0; row < forces.rows(); ++row)
+    least = std::min(least, forces.At(row, static_cast<std::size_t>(column)));
+  EXPECT_LT(rests, -1000.0) << "pressed";
+  EXPECT_LT(least, 1.3 * rests) << "more on the bump";
+  EXPECT_GT(trace.Diagrams().size(), 10u);
 }
 
 TEST(Manoeuvres, TheHandbrakeHolds) {
