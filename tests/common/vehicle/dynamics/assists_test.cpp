@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Anti-lock brakes, traction and stability control of the cars by the criteria of UN regulations 13-H and 140.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +69,13 @@ constexpr assists::AssistSettings With(bool abs, bool tcs, bool esc) {
 constexpr assists::AssistSettings kNone, kAbs = With(true, false, false), kTcs = With(false, true, false),
                                          kAll = With(true, true, true);
 
-class AssistsOf : public ::testing::TestWithParam<ModelCase> {};
+class AssistsOf : public ::testing::TestWithParam<ModelCase> {
+ protected:
+  // For docs/explanation/validation.md.
+  void Got(const std::string& what, double value, const char* unit) const {
+    RecordProperty(std::string(GetParam().name) + "_" + what, fmt::format("{:.1f}{}", value, unit));
+  }
+};
 
 struct Stop {
   double z = 0.0;       // mean deceleration from 45 to 15 km/h over g
@@ -103,6 +110,7 @@ TEST_P(AssistsOf, AntiLockBrakesUseTheRoadAndLockNoWheel) {
       const Stop stop = Brake(*with, road, speed_kmh * kKmh);
       EXPECT_FALSE(stop.locked) << speed_kmh;
       if (speed_kmh == 55.0) {
+        Got(fmt::format("used_of_{}", friction), stop.z / friction, "");
         EXPECT_GT(stop.z, 0.75 * friction);
         EXPECT_LT(stop.z, 1.15 * friction);
       }
@@ -132,6 +140,8 @@ TEST_P(AssistsOf, AntiLockBrakesLeaveADriverTheLaneOnASplitRoad) {
     if (at_45_s < 0.0 && s.speed_mps() < 45.0 * kKmh) at_45_s = kStep * i;
     if (at_15_s < 0.0 && s.speed_mps() < 15.0 * kKmh) at_15_s = kStep * i;
   }
+  Got("2_s", early_rad / kDegree, "");
+  Got("all", most_rad / kDegree, " deg");
   EXPECT_LT(early_rad, 120.0 * kDegree);
   EXPECT_LT(most_rad, 240.0 * kDegree);
   EXPECT_LT(off_m, 0.5 * car->dimensions().track_front_m) << "a wheel is on the other side";
@@ -221,6 +231,10 @@ TEST_P(AssistsOf, StabilityControlPassesTheSineWithDwell) {
     EXPECT_LT(dwell.after_1_75s, 0.20);
     EXPECT_GT(dwell.aside_m, 1.83);
   }
+  const Dwell most = SineWithDwell(*with, most_rad);
+  Got("1_s", 100.0 * most.after_1s, " %");
+  Got("1.75_s", 100.0 * most.after_1_75s, " %");
+  Got("aside", most.aside_m, " m");
   const Dwell spun = SineWithDwell(*without, most_rad);
   EXPECT_GT(std::max(spun.after_1s / 0.35, spun.after_1_75s / 0.20), 1.0);
 }
