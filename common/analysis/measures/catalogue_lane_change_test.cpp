@@ -38,6 +38,19 @@ Measure BasicDeviation(const DriveCut& cut, const OptionValues& o) {
   return DeviationFrom({o["before_m"], o["length_m"], cut.lane_change_test->start_t_m}, cut, o);
 }
 
+Measure DeviationInCorrectLanes(const DriveCut& cut, const OptionValues& o) {
+  if (!HasTest(cut)) return WithoutTest(cut, "m");
+  return CorrectDeviation(StationsIn(cut, cut.from, cut.to), cut(cut.drive.t_m), *cut.lane_change_test,
+                          {o["before_m"], o["length_m"], cut.lane_change_test->start_t_m}, o["half_lane_m"], o["by_m"],
+                          o["run_in_m"], o["run_out_m"]);
+}
+
+Measure DelayOfChanges(const DriveCut& cut, const OptionValues& o) {
+  if (!HasTest(cut)) return WithoutTest(cut, "s");
+  return ChangeDelay(StationsIn(cut, cut.from, cut.to), cut(cut.drive.t_m), cut.drive.rate_hz, *cut.lane_change_test,
+                     o["legible_m"]);
+}
+
 Measure AdaptiveDeviation(const DriveCut& cut, const OptionValues& o) {
   if (!HasTest(cut)) return WithoutTest(cut, "m");
   if (!cut.baseline) return NotFound("no interval is named as the baseline", "m", 0, cut.to - cut.from);
@@ -59,7 +72,10 @@ Measure CorrectShare(const DriveCut& cut, const OptionValues& o) {
 
 std::vector<MeasureInfo> LaneChangeTestMeasures() {
   const OptionInfo run_in{"run_in_m", 50, 0, 1000, "of the stretch, before the first sign"},
-      run_out{"run_out_m", 50, 0, 1000, "of the stretch, behind the last sign"};
+      run_out{"run_out_m", 50, 0, 1000, "of the stretch, behind the last sign"},
+      before{"before_m", 30, 0, 200, "begin of a change, before its sign"},
+      length{"length_m", 10, 0.1, 200, "of a change"}, half_lane{"half_lane_m", 1.75, 0.1, 10, "the lane is reached"},
+      by{"by_m", 40, 0, 500, "behind the sign"};
   return {
       {"lct_mdev_m",
        kFamily,
@@ -67,11 +83,16 @@ std::vector<MeasureInfo> LaneChangeTestMeasures() {
        "(1/L) integral of |t - t_ref| ds; t_ref changes lanes on a straight line",
        kStretchTraps,
        kSource,
-       {{"before_m", 30, 0, 200, "begin of a change, before its sign"},
-        {"length_m", 10, 0.1, 200, "of a change"},
-        run_in,
-        run_out},
+       {before, length, run_in, run_out},
        BasicDeviation},
+      {"lct_mdev_correct_m",
+       kFamily,
+       "mean deviation from the basic path, without wrong lanes",
+       "the same over the signs with the demanded lane reached, up to the change of the next sign",
+       "mean over distance, not time; it and lct_mdev_m belong together",
+       kSource,
+       {before, length, half_lane, by, run_in, run_out},
+       DeviationInCorrectLanes},
       {"lct_mdev_adaptive_m",
        kFamily,
        "mean deviation from the person's own path",
@@ -86,8 +107,16 @@ std::vector<MeasureInfo> LaneChangeTestMeasures() {
        "signs with |t - t_sign| < half a lane, by a distance behind them / signs that are passed",
        "the lane at one place counts, not how it was reached",
        kSource,
-       {{"half_lane_m", 1.75, 0.1, 10, "within it the lane is reached"}, {"by_m", 40, 0, 500, "behind the sign"}},
+       {half_lane, by},
        CorrectShare},
+      {"lct_delay_s",
+       kFamily,
+       "mean delay of the changes after their signs can be read",
+       "mean time from legible_m before a sign to the begin of its change (straight line through 10 % and 90 %)",
+       "signs without a change are left out; the distance of reading is the study's",
+       kSource,
+       {{"legible_m", 40, 0, 500, "before the sign"}},
+       DelayOfChanges},
   };
 }
 

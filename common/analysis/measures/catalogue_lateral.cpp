@@ -85,8 +85,28 @@ const std::vector<OptionInfo> kDepartureOptions{
     {"hysteresis_m", 0.1, 0, 5, "a departure ends where the footprint is again so far inside"},
     {"min_duration_s", 0.2, 0, 60, "shorter departures do not count"}};
 
-std::vector<double> TlcIn(const DriveCut& cut, double horizon_s) {
+// TLC 1 or 2 of the line that is approached: of the footprint, within each time in one lane.
+std::vector<double> TlcByDistance(const DriveCut& cut, bool second_order, double horizon_s) {
+  std::vector<double> tlc(cut.to - cut.from, kMissing);
+  for (const std::vector<double>* line : {&cut.drive.left_line_m, &cut.drive.right_line_m}) {
+    const Series distance = cut(*line);
+    for (const SampleRun& run : LaneRuns(PositionOf(cut, distance))) {
+      const Series part = distance.subspan(run.from, run.size());
+      const auto slope = Derivative(part, cut.drive.rate_hz), bend = Derivative(slope, cut.drive.rate_hz);
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const double t =
+            second_order ? SecondOrderTlc_s(part[i], -slope[i], -bend[i]) : FirstOrderTlc_s(part[i], -slope[i]);
+        if (t <= horizon_s) tlc[run.from + i] = std::fmin(tlc[run.from + i], t);
+      }
+    }
+  }
+  return tlc;
+}
+
+std::vector<double> TlcIn(const DriveCut& cut, const OptionValues& o) {
   const Drive& d = cut.drive;
+  const double horizon_s = o["horizon_s"];
+  if (o["method"] >= 0.5) return TlcByDistance(cut, o["method"] >= 1.5, horizon_s);
   std::vector<double> tlc;
   for (std::size_t i = cut.from; i < cut.to; ++i) {
     tlc.push_back(TrigonometricTlc_s({d.lane_position_m[i], d.heading_error_rad[i], d.speed_mps[i], d.yaw_radps[i],
@@ -97,8 +117,13 @@ std::vector<double> TlcIn(const DriveCut& cut, double horizon_s) {
 }
 
 Measure TlcMeasure(const DriveCut& cut, const OptionValues& o, const Measure& of, const char* unit) {
-  const UsedOptions used =
-      Used({{"horizon_s", o["horizon_s"]}, {"corner", "front"}, {"lane_ahead", "circle of its curvature here"}});
+  UsedOptions used = Used({{"horizon_s", o["horizon_s"]}});
+  if (o["method"] >= 0.5)
+    used.push_back({"method", o["method"] >= 1.5 ? "TLC 2, of the footprint" : "TLC 1, of the footprint"});
+  else
+    for (const UsedOption& option :
+         Used({{"method", "trigonometric"}, {"corner", "front"}, {"lane_ahead", "circle of its curvature here"}}))
+      used.push_back(option);
   const std::size_t valid = CountValid(cut(cut.drive.lane_position_m)), all = cut.to - cut.from;
   if (valid == 0) return NotFound(kNoLanePosition, unit, 0, all, used);
   if (!of.value) return NotFound("no line is reached within the horizon", unit, valid, all, used);
@@ -108,9 +133,12 @@ Measure TlcMeasure(const DriveCut& cut, const OptionValues& o, const Measure& of
 }
 
 const OptionInfo kHorizon{"horizon_s", 20, 0.1, 60, "a line that is reached later is not reached"};
+const OptionInfo kMethod{"method", 0, 0, 2,
+                         "0: trigonometric; 1: d / d'; 2: d / (d' + d'' 1 s), d the line's distance"};
 constexpr const char* kTlcEquation =
     "first t >= 0 at which a front corner, going on with v and yaw rate, is on a line of the lane";
-constexpr const char* kTlcTraps = "missing where no line is reached; in tight bends the rear corners may cross first";
+constexpr const char* kTlcTraps =
+    "missing where no line is reached; in tight bends the rear corners may cross first; TLC 1 has poor minima";
 
 }  // namespace
 
@@ -223,9 +251,9 @@ std::vector<MeasureInfo> LateralMeasures() {
        kTlcEquation,
        kTlcTraps,
        "van Winsum et al. 2000",
-       {kHorizon},
+       {kHorizon, kMethod},
        [](const DriveCut& cut, const OptionValues& o) {
-         return TlcMeasure(cut, o, MinimumOf(TlcIn(cut, o["horizon_s"]), "s"), "s");
+         return TlcMeasure(cut, o, MinimumOf(TlcIn(cut, o), "s"), "s");
        }},
       {"tlc_p15_s",
        family,
@@ -233,9 +261,9 @@ std::vector<MeasureInfo> LateralMeasures() {
        kTlcEquation,
        kTlcTraps,
        "van Winsum et al. 2000",
-       {kHorizon},
+       {kHorizon, kMethod},
        [](const DriveCut& cut, const OptionValues& o) {
-         return TlcMeasure(cut, o, QuantileOf(ApproachMinima(TlcIn(cut, o["horizon_s"])), "s", 0.15), "s");
+         return TlcMeasure(cut, o, QuantileOf(ApproachMinima(TlcIn(cut, o)), "s", 0.15), "s");
        }},
       {"tlc_below_share",
        family,
@@ -243,9 +271,9 @@ std::vector<MeasureInfo> LateralMeasures() {
        kTlcEquation,
        kTlcTraps,
        "van Winsum et al. 2000",
-       {kHorizon, {"threshold_s", 1, 0.01, 60, "of the time to line crossing"}},
+       {kHorizon, kMethod, {"threshold_s", 1, 0.01, 60, "of the time to line crossing"}},
        [](const DriveCut& cut, const OptionValues& o) {
-         std::vector<double> tlc = TlcIn(cut, o["horizon_s"]);
+         std::vector<double> tlc = TlcIn(cut, o);
          const Series y = cut(cut.drive.lane_position_m);
          // A line that is not reached in time counts as far away.
          for (std::size_t i = 0; i < tlc.size(); ++i) {

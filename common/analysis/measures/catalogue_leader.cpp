@@ -197,6 +197,9 @@ std::vector<MeasureInfo> LeaderMeasures() {
        [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).coherence; }},
       {"following_modulus", family, "own amplitude over the leader's", "|Sxy| / Sxx", kFollowingTraps, kBrookhuis,
        kFollowingOptions, [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).modulus; }},
+      {"following_phase_rad", family, "phase of the own speed", "arg Sxy, negative where the own speed lags",
+       kFollowingTraps, kBrookhuis, kFollowingOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).phase; }},
       {"following_delay_s", family, "delay of the own speed", "-arg Sxy / (2 pi f)", kFollowingTraps, kBrookhuis,
        kFollowingOptions, [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).delay; }},
   };

@@ -34,7 +34,61 @@ std::optional<Change> ChangeAt(Series s_m, Series t_m, double sign_s_m, double a
   return Change{*from - kFrom * length_m, length_m};
 }
 
+// The sample, with its fraction, at which a station is passed.
+std::optional<double> SampleAt(Series s_m, double at_s_m) {
+  for (std::size_t i = 1; i < s_m.size(); ++i) {
+    if (s_m[i - 1] <= at_s_m && s_m[i] > at_s_m)
+      return static_cast<double>(i - 1) + (at_s_m - s_m[i - 1]) / (s_m[i] - s_m[i - 1]);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+Measure ChangeDelay(Series s_m, Series t_m, double rate_hz, const LaneChangeTest& test, double legible_m) {
+  RODEIRA_ASSERT(s_m.size() == t_m.size());
+  double sum_s = 0.0, lane_t_m = test.start_t_m;
+  std::size_t changes = 0;
+  for (const LaneChangeSign& sign : test.signs) {
+    const double from_t_m = lane_t_m;
+    lane_t_m = sign.target_t_m;
+    if (from_t_m == lane_t_m) continue;
+    const auto change = ChangeAt(s_m, t_m, sign.s_m, from_t_m, lane_t_m);
+    const auto read = SampleAt(s_m, sign.s_m - legible_m);
+    const auto begins = change ? SampleAt(s_m, change->begin_m) : std::nullopt;
+    if (!read || !begins) continue;
+    ++changes;
+    sum_s += (*begins - *read) / rate_hz;
+  }
+  const UsedOptions used = Used({{"legible_m", legible_m}});
+  if (changes == 0) return NotFound("there is no lane change at a sign", "s", 0, test.signs.size(), used);
+  return Found(sum_s / static_cast<double>(changes), "s", changes, test.signs.size(), used);
+}
+
+Measure CorrectDeviation(Series s_m, Series t_m, const LaneChangeTest& test, const ReferencePath& path,
+                         double half_lane_m, double by_m, double run_in_m, double run_out_m) {
+  const std::size_t signs = test.signs.size();
+  const UsedOptions used = Used({{"before_m", path.before_m},
+                                 {"length_m", path.length_m},
+                                 {"half_lane_m", half_lane_m},
+                                 {"by_m", by_m},
+                                 {"mean", "over distance"}});
+  double integral = 0.0, way_m = 0.0;
+  std::size_t correct = 0;
+  for (std::size_t i = 0; i < signs; ++i) {
+    const auto one = std::span(test.signs).subspan(i, 1);
+    if (CorrectChanges(s_m, t_m, one, half_lane_m, by_m).value != 1.0) continue;
+    const double from = i == 0 ? one[0].s_m - run_in_m : one[0].s_m - path.before_m;
+    const double to = i + 1 == signs ? one[0].s_m + run_out_m : test.signs[i + 1].s_m - path.before_m;
+    const Measure deviation = MeanDeviation(s_m, t_m, from, to, test.signs, path);
+    if (!deviation.value) continue;
+    ++correct;
+    integral += *deviation.value * (to - from);
+    way_m += to - from;
+  }
+  if (correct == 0) return NotFound("no lane that a sign demands is reached", "m", 0, signs, used);
+  return Found(integral / way_m, "m", correct, signs, used);
+}
 
 OwnPath FindOwnPath(Series s_m, Series t_m, const LaneChangeTest& test) {
   RODEIRA_ASSERT(s_m.size() == t_m.size());

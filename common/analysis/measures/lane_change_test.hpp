@@ -25,4 +25,13 @@ struct OwnPath {
 // and behind them, and signs that demand no change, are left out.
 OwnPath FindOwnPath(Series s_m, Series t_m, const LaneChangeTest& test);
 
+// Mean time from where a sign can be read, `legible_m` before it, to the begin of its change, s; found as above.
+// Negative where it begins before. Missing where no sign has a change.
+Measure ChangeDelay(Series s_m, Series t_m, double rate_hz, const LaneChangeTest& test, double legible_m);
+
+// Mean deviation without wrong lanes: over the signs with a lane that is reached at `by_m` behind them, each from the
+// begin of its change to that of the next sign's; the first and the last one with `run_in_m` and `run_out_m`.
+Measure CorrectDeviation(Series s_m, Series t_m, const LaneChangeTest& test, const ReferencePath& path,
+                         double half_lane_m, double by_m, double run_in_m, double run_out_m);
+
 }  // namespace rodeira::measures

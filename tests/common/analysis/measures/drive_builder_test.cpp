@@ -79,13 +79,26 @@ TEST(DriveBuilder, TheRoadsDirectionChangesNothing) {
   const auto against = [](double t) {
     return Eigen::Vector3d(950.0 - 20.0 * t, 1.75 - 0.02 * t, std::numbers::pi + 0.001);
   };
-  const Drive a = Driven(*network, 15.0, along, Nobody), b = Driven(*network, 15.0, against, Nobody);
+  const auto ahead = [](double t) { return std::vector{Car(1, 110.0 + 17.0 * t, -1.75, 17.0)}; };
+  const auto ahead_against = [](double t) { return std::vector{Car(1, 890.0 - 17.0 * t, 1.75, 17.0)}; };
+  const Drive a = Driven(*network, 15.0, along, ahead), b = Driven(*network, 15.0, against, ahead_against);
   for (const std::size_t k : {10u, 700u, 1400u}) {
     EXPECT_NEAR(a.lane_position_m[k], b.lane_position_m[k], 1e-6);
     EXPECT_NEAR(a.heading_error_rad[k], b.heading_error_rad[k], 1e-9);
     EXPECT_NEAR(a.left_line_m[k], b.left_line_m[k], 1e-6);
   }
   EXPECT_EQ(b.lane[0], 1.0);
+  std::size_t found = 0;
+  for (const MeasureInfo& info : Catalogue()) {
+    const Measure m = info.compute({a, 0, a.size(), std::nullopt}, {info.options, {}});
+    const Measure n = info.compute({b, 0, b.size(), std::nullopt}, {info.options, {}});
+    ASSERT_EQ(m.value.has_value(), n.value.has_value()) << info.name << ": " << m.reason << n.reason;
+    EXPECT_EQ(m.n, n.n) << info.name;
+    if (!m.value) continue;
+    ++found;
+    EXPECT_NEAR(*m.value, *n.value, 1e-6 * (1.0 + std::abs(*m.value))) << info.name;
+  }
+  EXPECT_GT(found, 30u);
 }
 
 // Left-hand traffic: lane 1 is driven along the road, and left is left.

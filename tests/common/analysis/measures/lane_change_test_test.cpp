@@ -63,6 +63,31 @@ TEST(LaneChangeTest, ThePersonsOwnPathIsThatOfTheBaseline) {
   EXPECT_GT(*Measured("lct_mdev_m", drive, kTest).value, 0.3);
 }
 
+// At 16 m/s from 40 m before the sign to 18 m before it: 22 / 16 s.
+TEST(LaneChangeTest, TheDelayIsThatFromReadingToTheChange) {
+  EXPECT_NEAR(*Measured("lct_delay_s", DriveOf(18.0, 22.0), kTest).value, 22.0 / 16.0, 1e-6);
+  EXPECT_NEAR(*Measured("lct_delay_s", DriveOf(45.0, 10.0), kTest).value, -5.0 / 16.0, 1e-6) << "begun before";
+  Drive stays = DriveOf(18.0, 22.0);
+  stays.t_m.assign(stays.size(), kTest.start_t_m);
+  EXPECT_EQ(Measured("lct_delay_s", stays, kTest).reason, "there is no lane change at a sign");
+  EXPECT_EQ(Measured("lct_mdev_correct_m", stays, kTest).n, 1u) << "the third sign demands that lane";
+  stays.t_m.assign(stays.size(), 9.0);
+  EXPECT_EQ(Measured("lct_mdev_correct_m", stays, kTest).reason, "no lane that a sign demands is reached");
+}
+
+// The second sign is passed in a wrong lane. What is left, from 100 to 270 m and from 420 to 500 m, deviates by a
+// triangle at the third sign: the reference comes from 3.5 m, the drive from 0, over 10 m.
+TEST(LaneChangeTest, AWrongLaneIsLeftOut) {
+  Drive drive = DriveOf(30.0, 10.0);
+  const std::vector<LaneChangeSign> driven{kTest.signs[0], kTest.signs[2]};
+  for (std::size_t k = 0; k < drive.size(); ++k)
+    drive.t_m[k] = ReferenceAt(drive.s_m[k], driven, {30.0, 10.0, kTest.start_t_m});
+  EXPECT_NEAR(*Measured("lct_correct_share", drive, kTest).value, 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(*Measured("lct_mdev_correct_m", drive, kTest).value, 0.5 * 3.5 * 10.0 / (170.0 + 80.0), kCorners_m);
+  EXPECT_GT(*Measured("lct_mdev_m", drive, kTest).value, 1.0);
+  EXPECT_NEAR(*Measured("lct_mdev_correct_m", DriveOf(30.0, 10.0), kTest).value, 0.0, kCorners_m);
+}
+
 TEST(LaneChangeTest, WhatIsMissingHasItsReason) {
   const Drive drive = DriveOf(30.0, 10.0, 2.0);
   EXPECT_NE(Measured("lct_mdev_m", drive, {}).reason.find("there are no signs"), std::string::npos);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/given_drive.hpp"
 #include "tests/common/analysis/measures/signals.hpp"
 
 namespace rodeira::measures {
@@ -61,6 +63,26 @@ TEST(TimeToLine, FirstAndSecondOrder) {
   EXPECT_TRUE(std::isnan(FirstOrderTlc_s(0.8, -0.5)));
   EXPECT_TRUE(std::isnan(SecondOrderTlc_s(0.8, 0.5, -0.6)));
   EXPECT_EQ(FirstOrderTlc_s(-0.1, 0.5), 0.0);
+}
+
+// As measures, by their option: d = 2 - 0.05 t^2 to the left line for 5 s, d' = 0.1 t, d'' = 0.1; then away from it.
+TEST(TimeToLine, MeasuresByDistance) {
+  GivenDrive given;
+  given.rate_hz = 100.0;
+  given.columns["left_line_m"] = Sampled(10.0, 100.0, [](double t) { return t < 5.0 ? 2.0 - 0.05 * t * t : 0.75; });
+  given.columns["right_line_m"] = std::vector<double>(1000, 1.5);
+  given.columns["lane_position_m"] = std::vector<double>(1000, 0.0);
+  const Drive drive = DriveOf(given).value();
+  const auto value = [&](const char* name, double method) {
+    const MeasureInfo& info = *FindMeasure(name).value();
+    const std::map<std::string, double> options{{"method", method}};
+    return info.compute({drive, 0, drive.size(), {}}, OptionValues(info.options, options));
+  };
+  EXPECT_NEAR(*value("tlc_min_s", 1.0).value, 0.75 / 0.5, 0.02);
+  EXPECT_NEAR(*value("tlc_min_s", 2.0).value, 0.75 / 0.6, 0.03);
+  EXPECT_EQ(*value("tlc_below_share", 1.0).value, 0.0) << "never below 1 s";
+  EXPECT_FALSE(value("tlc_min_s", 0.0).value) << "no heading, no width";
+  EXPECT_EQ(value("tlc_min_s", 1.0).options[1], (UsedOption{"method", "TLC 1, of the footprint"}));
 }
 
 TEST(TimeToLine, EachApproachHasOneMinimum) {
