@@ -102,6 +102,65 @@ class MeasuresOfRecordings(unittest.TestCase):
         self.assertGreaterEqual(found, 7)
 
 
+    def test_one_process_or_several_give_the_same_bits(self):
+        several = rodeira.run(ROOT / "launch/car_ahead.yaml", seed=4, for_s=6, meta={"participant": "P07"})
+        one, other = rodeira.measures(self.path), rodeira.measures(several)
+        self.assertEqual(one.names, other.names)
+        for name in one.names:
+            np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+@needs_extension
+@unittest.skipUnless(PROGRAM, "RODEIRA does not name the program")
+class WayAhead(unittest.TestCase):
+    """On a straight street across a crossing with lights: what lies ahead stands still, and shows the lights' colours."""
+    @classmethod
+    def setUpClass(cls):
+        cls.drive = rodeira.run(ROOT / "launch/lights.yaml", for_s=45, in_process=True,
+                                set={"nodes.view": None, "nodes.traffic.config.vehicles": 10})
+        cls.series = rodeira.series(cls.drive)
+        cls.front = cls.series["x_m"] + cls.drive["vehicle_state"]["front_m"][0]
+
+    def test_the_junction_and_the_line_stand_still(self):
+        begins = (self.front + self.series["junction_ahead_m"])[np.isfinite(self.series["junction_ahead_m"])]
+        line = (self.front + self.series["light_ahead_m"])[np.isfinite(self.series["light_ahead_m"])]
+        for places in (begins, line):
+            self.assertGreater(len(places), 1000)
+            np.testing.assert_allclose(places, places[0], atol=0.01)
+        self.assertLess(line[0], begins[0] + 0.01)
+        inside = self.series["junction"] == 1.0
+        self.assertTrue(inside.any(), "it comes into the junction")
+        self.assertTrue(np.isnan(self.series["junction_ahead_m"][inside]).all())
+        entered = self.series["x_m"][inside].min()
+        self.assertAlmostEqual(entered, begins[0], delta=0.25)  # at 14 m/s, from sample to sample
+
+    def test_the_light_shows_its_controllers_colour(self):
+        seen = np.flatnonzero(np.isfinite(self.series["light_ahead"]))
+        self.assertGreater(len(seen), 1000)
+        self.assertGreater(len(np.unique(self.series["light_ahead"][seen])), 1)
+        signals = self.drive["signals_state"]
+        controllers, colours = signals["groups.controller"], signals["groups.colour"]
+        steps = np.round(signals.time_s * 100).astype(int)
+        same = {}
+        for controller in np.unique(controllers.values):
+            colour = np.full(len(self.series["time_s"]) + 1, np.nan)
+            own = controllers.values == controller
+            colour[steps[controllers.samples[own]]] = colours.values[own]
+            same[controller] = (colour[seen] == self.series["light_ahead"][seen]).mean()
+        self.assertEqual(max(same.values()), 1.0, same)
+
+    def test_the_distance_at_the_stop(self):
+        got = rodeira.measures(self.drive, ["stop_line_distance_m"])
+        speed = self.series["speed_mps"]
+        moves = np.flatnonzero(speed > 0.5)[0]
+        stops = moves + np.flatnonzero(speed[moves:] < 0.1)
+        if not len(stops):
+            self.assertEqual(got.rows[0].measures["stop_line_distance_m"].reason, "the vehicle does not stop")
+            return
+        nearer = np.fmin(self.series["light_ahead_m"], self.series["junction_ahead_m"])[stops[0]]
+        np.testing.assert_array_equal(got["stop_line_distance_m"][0], nearer)
+
+
 @needs_extension
 class MeasuresOfTables(unittest.TestCase):
     def setUp(self):

@@ -53,6 +53,17 @@ Measure DistanceIn(const DriveCut& cut, const OptionValues&) {
 
 const OptionInfo kDensity{"density_kgpl", 0.745, 0.1, 2, "of the fuel; petrol 0.745, diesel 0.832"};
 
+// Of the first stop after a motion: where a drive begins is no stop.
+Measure StopLineDistance(const DriveCut& cut, const OptionValues&) {
+  const StopOptions options;
+  const auto moves = std::ranges::find_if(cut(cut.drive.speed_mps), [&](double v) { return v > options.moving_mps; });
+  const auto from = static_cast<std::size_t>(moves - cut(cut.drive.speed_mps).begin());
+  const Series light = cut(cut.drive.light_ahead_m), junction = cut(cut.drive.junction_ahead_m);
+  std::vector<double> ahead(light.size());
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = std::fmin(light[i], junction[i]);
+  return StopDistance(cut(cut.drive.speed_mps).subspan(from), Series(ahead).subspan(from), options);
+}
+
 // With the sample at which the next interval begins: what is counted from sample to sample adds up.
 Series WithNext(const DriveCut& cut, const std::vector<double>& column) {
   return Part(column, cut.from, std::min(cut.to + 1, column.size()));
@@ -163,6 +174,14 @@ std::vector<MeasureInfo> SpeedMeasures() {
        [](const DriveCut& cut, const OptionValues&) {
          return StopTime(cut(cut.drive.speed_mps), cut.drive.rate_hz, {});
        }},
+      {"stop_line_distance_m",
+       family,
+       "distance from the front to the line at the first stop",
+       "light_ahead_m, or junction_ahead_m where that is nearer, at the first v < 0.1 m/s",
+       "the line is the light's, or the begin of the junction; negative beyond it; missing in a junction",
+       "SAE J2944",
+       {},
+       StopLineDistance},
       {"deceleration_max_mps2", family, "largest deceleration", "max of -dv/dt of the low-passed speed",
        kAccelerationTraps, "SAE J2944", kAccelerationOptions, AccelerationIn<LargestDeceleration>},
       {"deceleration_window_max_mps2", family, "largest mean deceleration over a window",

@@ -39,6 +39,9 @@ constexpr std::array kDriveColumns{
     DriveColumn{"right_line_m", Own<&Drive::right_line_m>},
     DriveColumn{"speed_limit_mps", Own<&Drive::speed_limit_mps>},
     DriveColumn{"junction", Own<&Drive::junction>},
+    DriveColumn{"junction_ahead_m", Own<&Drive::junction_ahead_m>},
+    DriveColumn{"light_ahead_m", Own<&Drive::light_ahead_m>},
+    DriveColumn{"light_ahead", Own<&Drive::light_ahead>},
     DriveColumn{"leader_id", Of<&Drive::leader, &Neighbour::id>},
     DriveColumn{"leader_gap_m", Of<&Drive::leader, &Neighbour::gap_m>},
     DriveColumn{"leader_speed_mps", Of<&Drive::leader, &Neighbour::speed_mps>},
@@ -78,7 +81,10 @@ void EachColumn(Drive& d, const Visit& visit) {
                                       &d.left_line_m,
                                       &d.right_line_m,
                                       &d.speed_limit_mps,
-                                      &d.junction})
+                                      &d.junction,
+                                      &d.junction_ahead_m,
+                                      &d.light_ahead_m,
+                                      &d.light_ahead})
     visit(*column);
   for (Neighbour* n : {&d.leader, &d.follower, &d.left_leader, &d.left_follower, &d.right_leader, &d.right_follower}) {
     for (std::vector<double>* column : {&n->id, &n->gap_m, &n->speed_mps, &n->length_m}) visit(*column);

@@ -49,7 +49,10 @@ struct Drive {
   std::vector<double> lane_curvature_1pm;
   std::vector<double> left_line_m, right_line_m;  // from the body's edge to the lane's line; negative beyond it
   std::vector<double> speed_limit_mps;
-  std::vector<double> junction;       // 1 within a junction, otherwise 0
+  std::vector<double> junction;  // 1 within a junction, otherwise 0
+  // From the front to the begin of the next junction, and to the line of the next light; negative beyond it, until B is
+  // there. The light's colour: 0 red, 1 red and amber, 2 green, 3 amber.
+  std::vector<double> junction_ahead_m, light_ahead_m, light_ahead;
   std::vector<std::int32_t> episode;  // numbers the times in one lane (lane_position.hpp)
   std::vector<std::int8_t> crossing;  // lane changes (lane_change.hpp)
   Neighbour leader, follower;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace rodeira::measures {
 namespace {
@@ -118,21 +119,54 @@ void DriveBuilder::FindNeighbours(std::size_t k, const Frame& frame) {
   if (after == visits_.begin()) return;
   const std::int64_t track = (after - 1)->track;
   if (track < 0) return;
-  constexpr std::ptrdiff_t kVisits = 60;
-  std::vector<std::uint32_t> later, earlier;
-  for (auto v = after; v != visits_.end() && v - after < kVisits; ++v) {
-    if (v->track >= 0) later.push_back(static_cast<std::uint32_t>(v->track));
-  }
-  for (auto v = after - 1; v != visits_.begin() && after - v < kVisits; --v) {
+  const std::vector<std::uint32_t> later = LaterTracks(static_cast<std::size_t>(after - visits_.begin()) - 1);
+  std::vector<std::uint32_t> earlier;
+  for (auto v = after - 1; v != visits_.begin() && after - v < static_cast<std::ptrdiff_t>(kVisits); --v) {
     if ((v - 1)->track >= 0) earlier.push_back(static_cast<std::uint32_t>((v - 1)->track));
   }
   PutNeighbours(*graph_, *leaders_, static_cast<std::uint32_t>(track), along_m_[k], frame.others, later, earlier, k,
                 drive_);
 }
 
+void DriveBuilder::AddLight(std::size_t k, std::uint32_t controller, double colour) {
+  auto& changes = colours_[controller];
+  if (changes.empty() || changes.rbegin()->second != colour) changes.emplace(k, colour);
+}
+
+std::vector<std::uint32_t> DriveBuilder::LaterTracks(std::size_t visit) const {
+  std::vector<std::uint32_t> later;
+  for (std::size_t v = visit + 1; v < visits_.size() && v < visit + kVisits; ++v) {
+    if (visits_[v].track >= 0) later.push_back(static_cast<std::uint32_t>(visits_[v].track));
+  }
+  return later;
+}
+
+void DriveBuilder::PutAhead() {
+  WayAhead way(*graph_);
+  for (std::size_t v = 0; v < visits_.size(); ++v) {
+    if (visits_[v].track < 0) continue;
+    const auto found = way.From(static_cast<std::uint32_t>(visits_[v].track), LaterTracks(v));
+    const std::size_t end = v + 1 < visits_.size() ? visits_[v + 1].from : drive_.size();
+    for (std::size_t k = visits_[v].from; k < end; ++k) {
+      if (std::isnan(along_m_[k])) continue;
+      const double front_m = along_m_[k] + drive_.front_m;
+      if (found.junction_d_m > along_m_[k] && *found.junction_d_m - front_m <= WayAhead::kReach_m)
+        drive_.junction_ahead_m[k] = *found.junction_d_m - front_m;
+      const auto light = std::ranges::upper_bound(found.lights, along_m_[k], {}, &WayAhead::Light::d_m);
+      if (light == found.lights.end() || light->d_m - front_m > WayAhead::kReach_m) continue;
+      drive_.light_ahead_m[k] = light->d_m - front_m;
+      const auto changes = colours_.find(light->controller);
+      if (changes == colours_.end()) continue;
+      const auto later = changes->second.upper_bound(k);
+      if (later != changes->second.begin()) drive_.light_ahead[k] = std::prev(later)->second;
+    }
+  }
+}
+
 Drive DriveBuilder::Finish() {
   GrowColumns(drive_, next_);
   if (next_ > 0) ProcessThrough(next_ - 1);
+  if (graph_) PutAhead();
   for (Neighbour* n : {&drive_.leader, &drive_.follower, &drive_.left_leader, &drive_.left_follower,
                        &drive_.right_leader, &drive_.right_follower})
     FillBetween(*n, frame_samples_);

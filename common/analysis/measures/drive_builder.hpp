@@ -9,6 +9,7 @@
 #include "common/analysis/measures/drive.hpp"
 #include "common/analysis/measures/encounter_finder.hpp"
 #include "common/analysis/measures/sample_kinematics.hpp"
+#include "common/analysis/measures/way_ahead.hpp"
 
 namespace rodeira::measures {
 
@@ -23,6 +24,8 @@ class DriveBuilder {
   void AddSubject(std::size_t k, const SubjectSample& sample);
   // The others at a sample. `traffic`: these are all agents of it; without, vehicles beside them.
   void AddOthers(std::size_t k, const std::vector<OtherVehicle>& others, bool traffic);
+  // The colour of a controller's lights from a sample on, as in Drive::light_ahead. Ascending samples.
+  void AddLight(std::size_t k, std::uint32_t controller, double colour);
   // Whether there is traffic, so that samples without it are filled in between.
   void ExpectTraffic() { has_traffic_ = true; }
   Drive Finish();
@@ -43,8 +46,11 @@ class DriveBuilder {
   void AddLane(std::size_t k, const SubjectSample& sample);
   void ProcessThrough(std::size_t k);
   void FindNeighbours(std::size_t k, const Frame& frame);
+  std::vector<std::uint32_t> LaterTracks(std::size_t visit) const;
+  void PutAhead();
 
   static constexpr std::size_t kLag = 2000;
+  static constexpr std::size_t kVisits = 60;  // of tracks, before and after, by which a way is chosen
   std::optional<lanes::Graph> graph_;
   std::optional<LaneFinder> lanes_;
   std::optional<LeaderFinder> leaders_;
@@ -56,9 +62,10 @@ class DriveBuilder {
   std::size_t next_ = 0;  // the sample behind the subject's newest
   bool has_traffic_ = false;
   std::map<std::size_t, Frame> frames_;
-  std::vector<double> along_m_;             // the track of the sample
-  std::vector<Visit> visits_;               // of tracks, one after the other
-  std::vector<std::size_t> frame_samples_;  // at which neighbours were looked for
+  std::vector<double> along_m_;                                     // the track of the sample
+  std::vector<Visit> visits_;                                       // of tracks, one after the other
+  std::vector<std::size_t> frame_samples_;                          // at which neighbours were looked for
+  std::map<std::uint32_t, std::map<std::size_t, double>> colours_;  // by controller and sample: its changes
 };
 
 }  // namespace rodeira::measures

@@ -20,7 +20,8 @@ namespace rodeira::measures {
 namespace {
 
 constexpr std::string_view kVehicleTopic = "rodeira/vehicle_state", kTrafficTopic = "rodeira/traffic_state",
-                           kEventTopic = "rodeira/scenario_events", kRemarkTopic = "rodeira/remarks";
+                           kEventTopic = "rodeira/scenario_events", kRemarkTopic = "rodeira/remarks",
+                           kSignalTopic = "rodeira/signals_state";
 
 // The fields of a vehicle's state, in this order.
 enum VehicleField {
@@ -143,7 +144,7 @@ class DriveChannels {
   std::string subject_;
   std::optional<std::int64_t> agent_;  // the subject is this one
   std::int64_t vehicle_ = 0;           // or this vehicle, by number
-  std::map<record::ChannelId, Numbers> vehicles_, traffic_;
+  std::map<record::ChannelId, Numbers> vehicles_, traffic_, signals_;
   std::map<record::ChannelId, decode::TypePtr> events_, remarks_;
   std::vector<double> values_ = std::vector<double>(kVehicleFields);
   double last_agent_heading_ = kMissing;
@@ -191,8 +192,8 @@ base::Status DriveChannels::Open(const record::McapReader& reader, const DriveQu
   std::int64_t traffic_period = 1;
   for (const auto& [id, channel] : reader.channels()) {
     const std::string topic(query.aliases == nullptr ? channel.topic : query.aliases->Topic(channel.topic));
-    const bool wanted =
-        topic == kVehicleTopic || topic == kTrafficTopic || topic == kEventTopic || topic == kRemarkTopic;
+    const bool wanted = topic == kVehicleTopic || topic == kTrafficTopic || topic == kEventTopic ||
+                        topic == kRemarkTopic || topic == kSignalTopic;
     const auto schema = reader.schemas().find(channel.schema);
     if (!wanted || schema == reader.schemas().end()) continue;
     auto type = decode::ReadType(schema->second.text, schema->second.name);
@@ -213,6 +214,10 @@ base::Status DriveChannels::Open(const record::McapReader& reader, const DriveQu
       if (!fields) return named(fields.error());
       traffic_.emplace(id, Numbers{type.value(), std::move(fields).value()});
       traffic_period = period;
+    } else if (topic == kSignalTopic) {
+      auto fields = MessageFields::Make(*type.value(), {}, "groups", {"controller", "colour"});
+      if (!fields) return named(fields.error());
+      signals_.emplace(id, Numbers{type.value(), std::move(fields).value()});
     } else {
       (topic == kEventTopic ? events_ : remarks_).emplace(id, type.value());
     }
@@ -289,6 +294,15 @@ base::Status DriveChannels::Take(const record::Message& message, DriveBuilder& b
   } else if (const auto traffic = traffic_.find(message.channel); traffic != traffic_.end()) {
     const auto k = SampleOf(message);
     if (k) return TakeTraffic(*k, traffic->second, message, builder);
+  } else if (const auto signals = signals_.find(message.channel); signals != signals_.end()) {
+    const auto k = SampleOf(message);
+    if (!k) return {};
+    const bool whole = signals->second.fields.Read(message.data, {}, [&](std::span<const double> group) {
+      builder.AddLight(*k, static_cast<std::uint32_t>(group[0]), group[1]);
+    });
+    if (!whole)
+      return base::WrongInput("message.damaged",
+                              "a message of signals_state ends early; `rodeira info` says what is damaged");
   } else if (const auto event = events_.find(message.channel); event != events_.end()) {
     constexpr std::size_t kCountAt = 36;  // behind encapsulation and header; most samples have no event
     std::uint32_t count = 0;

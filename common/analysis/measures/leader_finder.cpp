@@ -3,21 +3,10 @@
 
 #include <algorithm>
 
+#include "common/analysis/measures/preferred.hpp"
+
 namespace rodeira::measures {
 namespace {
-
-// Of the candidates the one that comes first in `order`; otherwise the first candidate. Nothing where there is none.
-template <class Candidates, class TrackOf>
-std::optional<std::uint32_t> Preferred(const Candidates& candidates, std::span<const std::uint32_t> order,
-                                       const TrackOf& track_of) {
-  if (candidates.empty()) return std::nullopt;
-  for (const std::uint32_t track : order) {
-    for (const auto& candidate : candidates) {
-      if (track_of(candidate) == track) return track;
-    }
-  }
-  return track_of(candidates.front());
-}
 
 constexpr int kMaxTracks = 200;  // of a way; roads that are cut into very short sections end earlier
 

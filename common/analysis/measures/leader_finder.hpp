@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/analysis/measures/lane_finder.hpp"
+#include "common/analysis/measures/measure.hpp"
 
 namespace rodeira::measures {
 
