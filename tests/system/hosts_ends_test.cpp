@@ -91,11 +91,11 @@ class TwoHosts : public testing::Test {
                                                ? std::vector<std::string>{"--node a", "--node d", "--node recorder"}
                                                : std::vector<std::string>{"--node b", "--node c", "--follow right"};
     for (const std::string& word : words) {
-      for (const pid_t pid : ProcessesWith("--run rig", word)) found.push_back(pid);
+      for (const pid_t pid : ProcessesWith("--run " + Rig::RunName(), word)) found.push_back(pid);
     }
     if (host == 0) {
-      const auto followers = ProcessesWith("--run rig", "--follow");
-      for (const pid_t pid : ProcessesWith("--run rig", "/rodeira-clock")) {
+      const auto followers = ProcessesWith("--run " + Rig::RunName(), "--follow");
+      for (const pid_t pid : ProcessesWith("--run " + Rig::RunName(), "/rodeira-clock")) {
         if (std::ranges::find(followers, pid) == followers.end()) found.push_back(pid);
       }
     }
@@ -106,11 +106,14 @@ class TwoHosts : public testing::Test {
     while (!Drives() && std::chrono::steady_clock::now() < until) ::usleep(5000);
     return Drives();
   }
-  static bool Drives() { return ProcessesWith("--run rig", "bin/rodeira-empty").size() == 4 && Runs("rig", 20s); }
+  static bool Drives() {
+    return ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() == 4 && Runs(Rig::RunName(), 20s);
+  }
   static bool ClockSays(const std::string& text) {
     const auto until = std::chrono::steady_clock::now() + 10s;
     for (; std::chrono::steady_clock::now() < until; ::usleep(5000)) {
-      if (RunCommand({Bin("rodeira"), "ctl", "--run", "rig", "state"}).out.find(text) != std::string::npos) return true;
+      if (RunCommand({Bin("rodeira"), "ctl", "--run", Rig::RunName(), "state"}).out.find(text) != std::string::npos)
+        return true;
     }
     return false;
   }
@@ -123,7 +126,8 @@ class TwoHosts : public testing::Test {
     if (cause.lasts <= 0s) return;
     // A run that is over on both PCs sees no cable.
     const auto until = std::chrono::steady_clock::now() + cause.lasts;
-    while (std::chrono::steady_clock::now() < until && !ProcessesWith("--run rig", "bin/rodeira-").empty())
+    while (std::chrono::steady_clock::now() < until &&
+           !ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-").empty())
       std::this_thread::sleep_for(10ms);
     rig_->Plug(cause.host);
   }
@@ -168,7 +172,7 @@ TEST_P(HostsEnds, AreThoseOfTheTable) {
       EXPECT_EQ(there.status, 0) << there.out;
       EXPECT_EQ(DigestIn(ended.out), undisturbed_) << ended.out;
     }
-    EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira").empty());
+    EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira").empty());
     if (cause.what == What::kLosePower) rig_->Plug(cause.host);
   }
   // The PCs can be used again at once.
@@ -190,7 +194,7 @@ TEST_F(TwoHosts, ANodeIsStartedAgainOnceItsInterfaceRuns) {
   ASSERT_TRUE(WaitUntilItDrives());
   rig_->SetRunning(1, false);
   ASSERT_GE(pcs[1]->WaitFor("no running interface of this PC has the address", 10s), 0ms);
-  const auto nodes = ProcessesWith("--run rig", "--node b");
+  const auto nodes = ProcessesWith("--run " + Rig::RunName(), "--node b");
   ASSERT_EQ(nodes.size(), 1u);
   ::kill(nodes.front(), SIGKILL);
   ASSERT_TRUE(ClockSays("'b' is starting"));

@@ -80,12 +80,13 @@ class Hosts : public ::testing::Test {
   // Until all processes are there and drive.
   static bool WaitUntilItDrives() {
     const auto until = std::chrono::steady_clock::now() + 30s;
-    while (ProcessesWith("--run rig", "bin/rodeira-empty").size() < 4 && std::chrono::steady_clock::now() < until)
+    while (ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() < 4 &&
+           std::chrono::steady_clock::now() < until)
       ::usleep(5000);
     std::this_thread::sleep_for(1s);
-    return ProcessesWith("--run rig", "bin/rodeira-empty").size() == 4;
+    return ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() == 4;
   }
-  void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira").empty()); }
+  void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira").empty()); }
 
   const cli::TemporaryFolder folder_;
   std::unique_ptr<Rig> rig_;
@@ -208,7 +209,8 @@ TEST_F(Hosts, TheSecondPcWaitsForTheClockAsLongAsItLikes) {
   if (!rig_->problem().empty()) return;
   const auto right = Start(1);
   std::this_thread::sleep_for(4s);
-  EXPECT_TRUE(ProcessesWith("--run rig", "bin/rodeira-empty").empty()) << "nothing begins before the clock is there";
+  EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").empty())
+      << "nothing begins before the clock is there";
   const Ended left = Start(0)->Wait(60s);
   const Ended ended = right->Wait(10s);
   EXPECT_EQ(left.status, 0) << left.out;
@@ -247,7 +249,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
   if (!rig_->problem().empty()) return;
   const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
   ASSERT_TRUE(WaitUntilItDrives());
-  const auto victims = ProcessesWith("--run rig", "--node c");
+  const auto victims = ProcessesWith("--run " + Rig::RunName(), "--node c");
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], SIGKILL);
   const auto took = left->WaitFor("node 'c' was killed by signal 9 (Killed) (host 'right')", 5s);
@@ -270,7 +272,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
   ASSERT_EQ(alone.status, 0) << alone.out;
   const auto left = Start(0, {"--record", two, "--pace", "real"}), right = Start(1);
   ASSERT_TRUE(WaitUntilItDrives());
-  const auto victims = ProcessesWith("--run rig", "--node c");
+  const auto victims = ProcessesWith("--run " + Rig::RunName(), "--node c");
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], SIGKILL);
   const Ended here = left->Wait(60s), there = right->Wait(10s);
@@ -369,7 +371,7 @@ TEST_F(Hosts, ObserversThatJoinLateDieOrAreSlowChangeNoStep) {
         "--launch",
         launch_,
         "--run",
-        "rig",
+        Rig::RunName(),
         "--domain",
         "9",
         "--node",

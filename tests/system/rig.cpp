@@ -86,8 +86,10 @@ std::string Rig::Name(int host) {
   return std::vector<std::string>{"left", "right", "third"}.at(static_cast<std::size_t>(host));
 }
 
+std::string Rig::RunName() { return "rig-" + std::to_string(::getpid()); }
+
 std::string Rig::Laboratory(int hosts, const std::string& discovery) {
-  std::string text = "rodeira: lab/1\ndomain: 9\nrun: rig\ndiscovery: " + discovery + "\nhosts:\n";
+  std::string text = "rodeira: lab/1\ndomain: 9\nrun: " + RunName() + "\ndiscovery: " + discovery + "\nhosts:\n";
   for (int host = 0; host < hosts; ++host) text += "  " + Name(host) + ": {address: " + Address(host) + "}\n";
   return text;
 }

@@ -23,7 +23,9 @@ class Rig {
   const Hub& hub() const { return *hub_; }
   static std::string Address(int host) { return "10.77.0." + std::to_string(host + 1); }
   static std::string Name(int host);
-  // A laboratory file of the first `hosts` of them: domain 9, the run is called "rig".
+  // Of the run: another one in each test program, whose processes all see each other.
+  static std::string RunName();
+  // A laboratory file of the first `hosts` of them: domain 9, the run has RunName().
   static std::string Laboratory(int hosts, const std::string& discovery);
   // The command, in the network of this host.
   std::vector<std::string> On(int host, std::vector<std::string> command) const;
