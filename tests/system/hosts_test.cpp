@@ -324,10 +324,10 @@ TEST_F(Hosts, ThePcThatComesTwiceIsRefused) {
   ASSERT_TRUE(WaitUntilItDrives());
   const Ended again = Start(1)->Wait(20s);
   EXPECT_EQ(again.status, 2) << again.out;
-  EXPECT_NE(
-      again.out.find("run 'rig' in domain 9: host 'right' of this run is started already on this PC, by process " +
-                     std::to_string(right->pid())),
-      std::string::npos)
+  EXPECT_NE(again.out.find("run '" + Rig::RunName() +
+                           "' in domain 9: host 'right' of this run is started already on this PC, by process " +
+                           std::to_string(right->pid())),
+            std::string::npos)
       << again.out;
   ::kill(left->pid(), SIGINT);
   EXPECT_EQ(left->Wait(10s).status, 0) << "and the run did not mind";
