@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wait that may last for ever, and a use of the system time, is named in a list with its reason
-// (endless_waits.txt, system_time.txt). Waits with a limit and waits on the monotonic clock need none.
+// A wait that may last for ever, a use of the system time, and a sleep of a test, is named in a list with its reason
+// (endless_waits.txt, system_time.txt, test_sleeps.txt). Waits with a limit and waits on the monotonic clock need none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,6 +38,7 @@ const Pattern kEndlessWait{
 const Pattern kSystemTime{std::regex(R"(\bsystem_clock\b|\bstd::time\(|::time\(|\bgettimeofday\b|\bCLOCK_REALTIME\b)"
                                      R"(|\blast_write_time\(|\bfile_clock\b)"),
                           {"system_clock", "time(", "gettimeofday", "CLOCK_REALTIME", "file_clock"}};
+const Pattern kSleep{std::regex(R"(\bsleep_for\(|\bsleep_until\(|\busleep\(|\bnanosleep\(|\bsleep\()"), {"sleep"}};
 
 std::string Trimmed(const std::string& text) {
   const auto begin = text.find_first_not_of(" \t");
@@ -56,10 +57,10 @@ void Search(std::istream& in, const std::string& path, const Pattern& wanted, Hi
   }
 }
 
-Hits SearchTree(const Pattern& wanted) {
+Hits SearchTree(const Pattern& wanted, const std::vector<std::string>& folders = {"common", "nodes", "launch", "idl"}) {
   const fs::path root = rodeira::SourceDir();
   Hits hits;
-  for (const char* top : {"common", "nodes", "launch", "idl"}) {
+  for (const std::string& top : folders) {
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const auto extension = entry.path().extension();
       if (extension != ".cpp" && extension != ".hpp") continue;
@@ -93,6 +94,8 @@ void ExpectListed(const Hits& found, const std::string& list) {
 }
 
 TEST(Waits, EveryEndlessWaitHasAReason) { ExpectListed(SearchTree(kEndlessWait), "endless_waits.txt"); }
+// A test waits for an event. Where it sleeps all the same, the list says why.
+TEST(Waits, EverySleepOfATestHasAReason) { ExpectListed(SearchTree(kSleep, {"tests"}), "test_sleeps.txt"); }
 TEST(Waits, EveryUseOfTheSystemTimeHasAReason) { ExpectListed(SearchTree(kSystemTime), "system_time.txt"); }
 
 TEST(Waits, TheyAreFoundHoweverTheyAreWritten) {
@@ -115,6 +118,13 @@ TEST(Waits, TheyAreFoundHoweverTheyAreWritten) {
   EXPECT_TRUE(kSystemTime.IsIn("until = std::chrono::system_clock::now() + 1s;"));
   EXPECT_TRUE(kSystemTime.IsIn("const auto now = std::time(nullptr);"));
   EXPECT_FALSE(kSystemTime.IsIn("steady_clock::now(); clock.time(3);"));
+  EXPECT_TRUE(
+      kSleep.IsIn("std::this_thread::sleep"
+                  "_for(1s);"));
+  EXPECT_TRUE(
+      kSleep.IsIn("::usleep"
+                  "(100);"));
+  EXPECT_FALSE(kSleep.IsIn("RODEIRA_SLEEP_S, asleep()"));
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   const auto until = std::chrono::steady_clock::now() + 20s;
   while (ProcessesWith("--run living", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until)
     ::usleep(5000);
-  std::this_thread::sleep_for(1s);
+  ASSERT_TRUE(Runs("living"));
   const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);
   const auto dead = Die();
@@ -204,7 +204,7 @@ TEST_F(DeadRun, ALivingRunOutsideTheContainerIsLeftAlone) {
   const auto until = std::chrono::steady_clock::now() + 20s;
   while (ProcessesWith("--run outside", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until)
     ::usleep(5000);
-  std::this_thread::sleep_for(1s);
+  ASSERT_TRUE(Runs("outside"));
   const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);
   std::vector<std::string> next = inside;

@@ -175,7 +175,12 @@ TEST_F(Drive, TheGroundIsTheSameHereAndThere) {
 
 TEST_F(Drive, OfAKilledRecorderTheFileIsReadable) {
   Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("cut.mcap"), "--run", "cut-recorder"}));
-  std::this_thread::sleep_for(3500ms);
+  const auto messages = [&] {
+    const auto reader = record::McapReader::Open(Path("cut.mcap"));
+    return reader.ok() ? reader.value().statistics().messages : 0;
+  };
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  while (messages() <= 500 && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(20ms);
   const auto victims = ProcessesWith("--run cut-recorder", "--node recorder");
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], SIGKILL);
@@ -192,7 +197,7 @@ TEST_F(Drive, OfAKilledRecorderTheFileIsReadable) {
 
 TEST_F(Drive, OfAKilledCarTheRecordingIsClosedProperly) {
   Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("closed.mcap"), "--run", "killed-car"}));
-  std::this_thread::sleep_for(2500ms);
+  ASSERT_TRUE(Runs("killed-car"));
   for (const pid_t victim : ProcessesWith("--run killed-car", "--node ego")) ::kill(victim, SIGKILL);
   EXPECT_GE(run.WaitFor("node 'ego' was killed by signal 9", 2s), 0ms);
   EXPECT_EQ(run.Wait(10s).status, 1);
@@ -207,7 +212,7 @@ TEST_F(Drive, OfAKilledCarTheRecordingIsClosedProperly) {
 TEST_F(Drive, AStoppedRoadServerIsNamedAndNotTheCarThatWaitsForIt) {
   Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("x.mcap"), "--run", "stopped-road", "--set",
                        "nodes.ego.config.ground=remote"}));
-  std::this_thread::sleep_for(2000ms);
+  ASSERT_TRUE(Runs("stopped-road"));
   for (const pid_t victim : ProcessesWith("--run stopped-road", "--node road")) ::kill(victim, SIGSTOP);
   EXPECT_GE(run.WaitFor("node 'road' was stopped", 2s), 0ms);
   EXPECT_EQ(run.Wait(10s).status, 1);

@@ -3,52 +3,21 @@
 // by the types that fastddsgen made.
 #include "launch/rodeira/commands/measures_command.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <map>
 
 #include "common/analysis/measures/drive_reader.hpp"
-#include "common/core/base/files.hpp"
 #include "idl/aliases.hpp"
 #include "launch/rodeira/commands/report_command.hpp"
-#include "tests/launch/rodeira/replay/replay_fixture.hpp"
-#include "tests/launch/rodeira/said.hpp"
+#include "tests/launch/rodeira/commands/measures_fixture.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 using ::testing::HasSubstr;
-
-class MeasuresCommand : public ReplayTest {
- protected:
-  std::string Path(const char* name) const { return (folder_.path() / name).string(); }
-  std::string ReadBack(const char* name) const { return base::ReadText(Path(name)).value(); }
-  static Said Of(const MeasuresOptions& options) { return SaidBy<MeasuresOptions>(Measures, options); }
-
-  // The rows of a table without quotes, by column.
-  static std::vector<std::map<std::string, std::string>> Rows(const std::string& csv) {
-    std::vector<std::map<std::string, std::string>> rows;
-    std::vector<std::string> header;
-    std::istringstream lines(csv);
-    for (std::string line; std::getline(lines, line);) {
-      std::vector<std::string> cells;
-      std::istringstream in(line + ",");
-      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-      if (header.empty()) {
-        header = cells;
-        continue;
-      }
-      std::map<std::string, std::string> row;
-      for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i) row[header[i]] = cells[i];
-      rows.push_back(row);
-    }
-    return rows;
-  }
-};
 
 TEST_F(MeasuresCommand, ATableOfTwoDrivesOnAPlane) {
   const std::string dry = Record("dry.mcap", LaunchFile("first_drive.yaml"),
@@ -261,35 +230,6 @@ TEST_F(MeasuresCommand, WrongInputIsOneSentence) {
   refused(explain, "did you mean 'sdlp_m'?");
 }
 
-// A recording that says another world than it embeds, and one with a hole.
-TEST_F(MeasuresCommand, AnotherWorldAndAHole) {
-  const std::string drive = Drive(2.0);
-  MeasuresOptions options;
-  options.recordings = {Copied(
-      drive,
-      [](const std::string& name, record::TextMap& entries) {
-        if (name == "rodeira") entries["world_hash"] = "0123456789abcdef";
-      },
-      [](const std::string&, const record::Message&, base::Bytes&) { return true; })};
-  const Said other = Of(options);
-  EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.errors, HasSubstr("the recording says world_hash 0123456789abcdef"));
-
-  std::uint64_t seen = 0;
-  options.recordings = {Copied(
-      drive, [](const std::string&, record::TextMap&) {},
-      [&](const std::string& topic, const record::Message&, base::Bytes&) {
-        return topic != idl::topics::kVehicleState || ++seen < 500 || seen > 1000;
-      })};
-  options.out = Path("hole.csv");
-  options.long_format = true;
-  ASSERT_EQ(Of(options).status, 0);
-  for (const auto& row : Rows(ReadBack("hole.csv"))) {
-    if (row.at("measure") != "throttle_mean") continue;
-    EXPECT_NEAR(std::stod(row.at("valid_share")), 0.75, 0.01) << "half a second of two is missing";
-  }
-}
-
 // Two seconds: each measure is a number, or missing with a reason. Intervals may overlap: two that share half
 // a second have the samples of their three parts.
 TEST_F(MeasuresCommand, AShortDriveAndIntervalsThatOverlap) {
@@ -318,75 +258,6 @@ TEST_F(MeasuresCommand, AShortDriveAndIntervalsThatOverlap) {
   EXPECT_EQ(samples["early"], samples["first"] + samples["both"]);
   EXPECT_EQ(samples["late"], samples["both"] + samples["last"]);
   EXPECT_EQ(samples["early"] + samples["late"] - samples["both"], samples["all"]);
-}
-
-// Names of before in the recording's IDL, and no embedded world: the first is read, the second a sentence.
-TEST_F(MeasuresCommand, AVersionBeforeAndAWorldThatDoesNotLoad) {
-  const std::string drive = Drive(2.0);
-  const std::string before = Path("before.mcap");
-  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
-  CopyRecording(
-      drive, before, [](const std::string&, record::TextMap&) {}, all, [](const std::string&) { return true; }, {},
-      [](const std::string&, std::string& idl) {
-        for (const auto& [now, then] : {std::pair("SampleHeader", "Header"), std::pair("fuel_used_kg", "fuel_kg")}) {
-          for (auto at = idl.find(now); at != std::string::npos; at = idl.find(now)) idl.replace(at, strlen(now), then);
-        }
-      });
-  const auto table = [&](const std::string& file) {
-    MeasuresOptions options;
-    options.recordings = {file};
-    options.out = Path("table.csv");
-    const Said said = Of(options);
-    EXPECT_EQ(said.status, 0) << said.errors;
-    auto row = Rows(ReadBack("table.csv")).at(0);
-    row.erase("file");
-    return row;
-  };
-  EXPECT_EQ(table(before), table(drive));
-
-  MeasuresOptions options;
-  options.recordings = {Copied(
-      drive, [](const std::string&, record::TextMap&) {}, all,
-      [](const std::string& name) { return name.find("worlds/") == std::string::npos; })};
-  const Said none = Of(options);
-  EXPECT_EQ(none.status, 2);
-  EXPECT_EQ(std::count(none.errors.begin(), none.errors.end(), '\n'), 1) << none.errors;
-  EXPECT_THAT(none.errors, HasSubstr("worlds/"));
-}
-
-// An embedded world with a wrong key, one that is no YAML, and one with bytes that do not unpack.
-TEST_F(MeasuresCommand, AnEmbeddedWorldThatIsDamaged) {
-  const std::string drive = Drive(2.0);
-  struct Damage {
-    std::string text, media_type, said;
-  };
-  for (const Damage& damage :
-       {Damage{"rodeira: world/2\nrods: []\n", "application/octet-stream", "plane.yaml:1: key 'name'"},
-        Damage{"rodeira: [world/2", "application/octet-stream", "plane.yaml:1: this is no YAML"},
-        Damage{"no archive", "application/x-rodeira-zstd", "worlds/"}}) {
-    SCOPED_TRACE(damage.text);
-    const std::string copy = Path("damaged.mcap");
-    int worlds = 0;
-    CopyRecording(
-        drive, copy, [](const std::string&, record::TextMap&) {},
-        [](const std::string&, const record::Message&, base::Bytes&) { return true; },
-        [](const std::string&) { return true; }, {}, [](const std::string&, std::string&) {},
-        [&](const std::string& name, std::string& media_type, base::Bytes& data) {
-          if (name.find("worlds/") == std::string::npos) return;
-          ++worlds;
-          media_type = damage.media_type;
-          const auto bytes = std::as_bytes(std::span(damage.text));
-          data.assign(bytes.begin(), bytes.end());
-        });
-    ASSERT_GE(worlds, 1);
-    MeasuresOptions options;
-    options.recordings = {copy};
-    const Said said = Of(options);
-    EXPECT_EQ(said.status, 2);
-    EXPECT_EQ(std::count(said.errors.begin(), said.errors.end(), '\n'), 1) << said.errors;
-    EXPECT_THAT(said.errors, HasSubstr("damaged.mcap"));
-    EXPECT_THAT(said.errors, HasSubstr(damage.said));
-  }
 }
 
 // On a recording with events: from an event on for some seconds, by speed, lane, stations and junction. The intervals

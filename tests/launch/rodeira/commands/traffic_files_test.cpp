@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
@@ -18,75 +17,12 @@
 #include "common/core/base/files.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
-#include "tests/launch/rodeira/said.hpp"
-#include "tests/launch/rodeira/temporary_folder.hpp"
-#include "tests/tree.hpp"
+#include "tests/launch/rodeira/commands/traffic_files_fixture.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 using testing::HasSubstr;
-using Rows = std::vector<std::map<std::string, std::string>>;
-
-Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
-
-// A table by the names in its first line.
-Rows Table(const std::filesystem::path& file, const std::string& header) {
-  std::istringstream text(base::ReadText(file).value());
-  const auto fields = [](const std::string& line) {
-    std::vector<std::string> all{""};
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == '"') {
-        if (quoted && i + 1 < line.size() && line[i + 1] == '"')
-          all.back() += line[++i];
-        else
-          quoted = !quoted;
-      } else if (line[i] == ',' && !quoted) {
-        all.emplace_back();
-      } else {
-        all.back() += line[i];
-      }
-    }
-    return all;
-  };
-  std::string line;
-  std::getline(text, line);
-  EXPECT_EQ(line, header);
-  const auto names = fields(line);
-  Rows rows;
-  while (std::getline(text, line)) {
-    const auto values = fields(line);
-    EXPECT_EQ(values.size(), names.size()) << line;
-    rows.emplace_back();
-    for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) rows.back()[names[i]] = values[i];
-  }
-  return rows;
-}
-
-double Number(const std::map<std::string, std::string>& row, const std::string& key) { return std::stod(row.at(key)); }
-
-const char* const kLanes = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps";
-const char* const kTrips =
-    "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow,left,left_s,way_m,waiting_s";
-const char* const kIntervals =
-    "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
-
-// Ten cars for a minute and a half on the ramp's map, with a name that XML has to spell otherwise.
-class TrafficFilesTest : public testing::Test {
- protected:
-  TrafficFilesTest() {
-    options_.map = folder_.path() / "a & <b>.motors";
-    std::filesystem::copy_file(SourceDir() + "/configs/maps/ramp.motors", options_.map);
-    options_.vehicles = 10;
-    options_.duration_s = 90.0;
-    options_.step_s = 0.05;
-  }
-  std::string In(const char* name) const { return folder_.path() / name; }
-
-  const TemporaryFolder folder_;
-  TrafficOptions options_;
-};
 
 TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   options_.csv = In("out");
@@ -260,20 +196,6 @@ TEST_F(TrafficFilesTest, IntervalsAddUpToTheTables) {
     EXPECT_LE(Number(row, "entered_s") + Number(row, "travel_time_s"), 120.0 + 1e-6);
 }
 
-TEST_F(TrafficFilesTest, WrongWishesForTimesAreRefused) {
-  options_.warm_s = 90.0;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
-  options_.warm_s = 0.0, options_.every_s = 10.0;
-  EXPECT_THAT(Asked(options_).errors,
-              HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
-  options_.every_s = 0.0, options_.fcd = In("cars.csv");
-  const Said said = Asked(options_);
-  EXPECT_EQ(said.status, 2);
-  EXPECT_THAT(said.errors, HasSubstr("a file on .xml was expected"));
-  options_.fcd.clear(), options_.heat = In("a.svg"), options_.pixel_m = 2.0;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--pixel: a pixel of 2 m was given"));
-}
-
 TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
   options_.duration_s = 30.0;
   for (const bool heat : {true, false}) {
@@ -374,50 +296,6 @@ TEST_F(TrafficFilesTest, TripInformationIsAsSumoWritesIt) {
   EXPECT_THAT(base::ReadText(In("said")).value(), HasSubstr(fmt::format("count {}", trips.size())));
 }
 
-TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
-  struct Case {
-    std::function<void(TrafficOptions&)> wish;
-    int status;
-    std::string sentence;
-  };
-  ASSERT_TRUE(base::WriteWhole(In("file"), "a file").ok());
-  std::filesystem::create_directory(In("folder.svg"));
-  ASSERT_TRUE(base::WriteWhole(In("bad.yaml"), "rodeira: traffic/1\nvariety: 0.6\n").ok());
-  for (const Case& c : std::vector<Case>{
-           {[&](TrafficOptions& o) { o.heat = In("heat.png"); }, 2,
-            "--heat: '" + In("heat.png") + "' was found; a file on .svg or .tif was expected"},
-           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1:-7"; }, 2,
-            "--lane: '1:-7' was found; a drivable lane as ROAD:LANE was expected"},
-           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1"; }, 2,
-            "--lane: '1' was found; a drivable lane as ROAD:LANE was expected"},
-           {[&](TrafficOptions& o) { o.csv = In("file") + "/out"; }, 1,
-            In("file") + "/out: the folder cannot be written to"},
-           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.svg"; }, 1,
-            In("file") + "/heat.svg: the file cannot be created"},
-           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.tif"; }, 1,
-            In("file") + "/heat.tif: the file cannot be created"},
-           {[&](TrafficOptions& o) { o.diagram = In("folder.svg"); }, 1,
-            In("folder.svg") + ": the file cannot be written: a folder has that name"},
-           {[&](TrafficOptions& o) { o.heat = In("heat.tif"), o.pixel_m = 0.01; }, 2, In("heat.tif") + ": "},
-           {[&](TrafficOptions& o) { o.fcd = In("no/such/cars.xml"); }, 1,
-            In("no/such/cars.xml") + ": the file cannot be written"},
-           {[&](TrafficOptions& o) { o.settings = In("bad.yaml"); }, 2, In("bad.yaml") + ":2: 'variety' is 0.6"},
-           {[&](TrafficOptions& o) { o.settings = In("none.yaml"); }, 2, In("none.yaml")},
-           {[&](TrafficOptions& o) { o.map = In("none.motors"); }, 2, In("none.motors")},
-           {[&](TrafficOptions& o) { o.map = In("none.yaml"); }, 2, In("none.yaml")},
-           {[&](TrafficOptions& o) { o.map = In("file"); }, 2, In("file")},
-       }) {
-    TrafficOptions options = options_;
-    c.wish(options);
-    const Said said = Asked(options);
-    EXPECT_EQ(said.status, c.status) << c.sentence;
-    EXPECT_THAT(said.errors, testing::StartsWith("rodeira: " + c.sentence));
-    EXPECT_EQ(said.out, "") << c.sentence;
-  }
-  for (const auto& left : std::filesystem::directory_iterator(folder_.path()))
-    EXPECT_EQ(left.path().string().find("heat"), std::string::npos) << left.path();
-}
-
 // Larger pixels make a map of the same place.
 TEST_F(TrafficFilesTest, ThePixelsOfAHeatMapCanBeChosen) {
   options_.duration_s = 10.0;
@@ -458,32 +336,6 @@ TEST_F(TrafficFilesTest, NamesOfRoadsAreCells) {
   const Rows trips = Table(In("out") + "/trips.csv", kTrips);
   EXPECT_GT(trips.size(), 0u);
   for (const auto& row : trips) EXPECT_EQ(row.at("from").substr(0, row.at("from").rfind(':')), id);
-}
-
-// What is wrong with a map is told with its line; nothing drives.
-TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
-  const std::string whole = base::ReadText(SourceDir() + "/configs/maps/lights.motors").value();
-  const auto replaced = [&](const std::string& what, const std::string& with) {
-    std::string text = whole;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-      text.replace(at, what.size(), with);
-    return text;
-  };
-  options_.map = In("it.motors");
-  const auto says = [&](const std::string& text, const std::string& companion, const std::string& sentence) {
-    ASSERT_TRUE(base::WriteWhole(options_.map, text).ok());
-    ASSERT_TRUE(base::WriteWhole(options_.map + ".yaml", companion).ok());
-    const Said said = Asked(options_);
-    EXPECT_EQ(said.status, 2) << sentence;
-    EXPECT_THAT(said.errors, testing::AllOf(testing::StartsWith("rodeira: "), HasSubstr(sentence)));
-    EXPECT_EQ(said.out, "") << sentence;
-  };
-  const std::string none = "rodeira: motors/1\n";
-  says(whole.substr(0, 1000), none, "it.motors: the file ends at byte 1000");
-  says(replaced(",1,1\n", ",1,0\n"), none, "start");
-  says(replaced("s,34", "c,1,999,False,0,0,0\ns,34"), none, "999");
-  says(whole, none + "lights:\n  - phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 20}]\n",
-       "green or amber together");
 }
 
 }  // namespace

@@ -15,9 +15,8 @@
 #include "common/core/base/files.hpp"
 #include "common/world/road/world.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
-#include "tests/common/world/surface/made_crg.hpp"
+#include "tests/launch/rodeira/commands/world_fixture.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
-#include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::cli {
@@ -26,25 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-struct Said {
-  int status;
-  std::string out;
-  std::string errors;
-};
-
-Said Asked(const std::string& command, const fs::path& world, const fs::path& folder = {}) {
-  WorldOptions options;
-  options.command = command;
-  options.world_file = world;
-  options.out = folder;
-  options.quiet = true;
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int status = World(options);
-  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
-
-Said Build(const fs::path& world, const fs::path& folder) { return Asked("build", world, folder); }
+Said Build(const fs::path& world, const fs::path& folder) { return AskedOfWorld("build", world, folder); }
 
 constexpr const char* kHills =
     "rodeira: world/1\nname: hills\nterrain:\n  surface: grass\n"
@@ -86,87 +67,6 @@ TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_EQ(base::ReadText(out / "world.xodr").value(), text);
   EXPECT_THAT(Build(file, out).out, HasSubstr(" 0 built, "));
-}
-
-// As a person types it: what is a warning otherwise is an error, and status 2.
-TEST(WorldCheck, StrictlyAsAsamsOwnToleranceAsks) {
-  const TemporaryFolder folder;
-  const fs::path file =
-      folder.Write("gap.xodr",
-                   "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" "
-                   "length=\"60\" junction=\"-1\">\n"
-                   "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"40\"><line/></geometry>\n<geometry "
-                   "s=\"40\" x=\"40.0015\" y=\"0\" hdg=\"0\" length=\"20\"><line/></geometry></planView>"
-                   "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" "
-                   "type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
-                   "</laneSection></lanes></road>\n</OpenDRIVE>\n");
-  const system_test::Ended usual =
-      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
-  EXPECT_EQ(usual.status, 0) << usual.out;
-  EXPECT_THAT(usual.out, HasSubstr("rodeira: warning: "));
-  EXPECT_THAT(usual.out, HasSubstr("gap.xodr: no error found\n"));
-  const system_test::Ended strict =
-      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string(), "--strict"});
-  EXPECT_EQ(strict.status, 2) << strict.out;
-  EXPECT_THAT(strict.out, HasSubstr("gap.xodr:6: road.geometry.contact_point: road 1, s 40: a gap of 0.0015 m to the "
-                                    "element before; at most 1e-06 m was expected\n"));
-  const fs::path world = folder.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n");
-  const system_test::Ended other =
-      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
-  EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.out, HasSubstr("'--strict' is for OpenDRIVE files"));
-}
-
-// A surface that the file names is part of the check: missing, or laid in no way that there is, it is named with the
-// file's line.
-TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
-  const TemporaryFolder folder;
-  const auto check = [&](const std::string& surface) {
-    const fs::path file = folder.Write(
-        "s.xodr",
-        "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" "
-        "junction=\"-1\">\n"
-        "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
-        "length=\"60\"><line/></geometry></planView>\n<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
-        "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
-        "d=\"0\"/></lane></right></laneSection></lanes>\n<surface>\n" +
-            surface + "\n</surface></road>\n</OpenDRIVE>\n");
-    return system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
-  };
-  folder.Write("bumps.crg", surface::MadeCrg().Text());
-  EXPECT_EQ(check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)").status, 0);
-  const system_test::Ended missing =
-      check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
-  EXPECT_EQ(missing.status, 0);
-  EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_THAT(missing.out, HasSubstr("there is no such file; did you mean 'bumps.crg'?"));
-  const fs::path file = folder.path() / "s.xodr", repaired = folder.path() / "repaired.xodr";
-  const auto again = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {system_test::Bin("rodeira"), "world", "check"});
-    return system_test::RunCommand(options);
-  };
-  const system_test::Ended strict = again({"--strict", file.string()});
-  EXPECT_EQ(strict.status, 2);
-  EXPECT_THAT(strict.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
-  EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
-  const system_test::Ended mode =
-      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
-  EXPECT_EQ(mode.status, 2);
-  EXPECT_THAT(
-      mode.out,
-      HasSubstr(
-          "s.xodr:8: road 1, s 0, 'bumps.crg': 'attachd' is no mode of a measured surface; did you mean 'attached'?"));
-  const system_test::Ended beyond =
-      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
-  EXPECT_EQ(beyond.status, 0);
-  EXPECT_THAT(beyond.out, HasSubstr("s.xodr:8: road.surface.crg.s: road 1: the measured surface 'bumps.crg' lies from "
-                                    "s = 0 to 9000; two places on the road, which is 60 m long, were expected; "
-                                    "repaired: it is cut at the road's end"));
-  EXPECT_EQ(system_test::RunCommand(
-                {system_test::Bin("rodeira"), "world", "check", "--strict", (folder.path() / "s.xodr").string()})
-                .status,
-            2);
 }
 
 // What is said on a terminal while `work` goes on.
@@ -234,7 +134,7 @@ TEST(WorldBuild, AWorldFilesRoadsAndHills) {
   EXPECT_TRUE(fs::exists(out / "hills.yaml"));
   EXPECT_TRUE(fs::exists(out / "world.osgb"));
   EXPECT_EQ(said.errors, "");
-  EXPECT_EQ(Asked("check", file).errors, "");
+  EXPECT_EQ(AskedOfWorld("check", file).errors, "");
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
 }
 
@@ -276,7 +176,7 @@ TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
   const Said said = Build(file, out);
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(said.errors, "");
-  EXPECT_EQ(Asked("check", file).errors, "");
+  EXPECT_EQ(AskedOfWorld("check", file).errors, "");
   EXPECT_TRUE(fs::exists(out / "world.osgb"));
   EXPECT_TRUE(fs::exists(out / "tiles" / "0_0_0.osgb"));
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
@@ -299,7 +199,7 @@ TEST(WorldBuild, AWorldOfThingsWithoutARoad) {
   EXPECT_TRUE(fs::exists(out / "world.osgb"));
   EXPECT_TRUE(fs::exists(out / "w.bt"));
   EXPECT_FALSE(fs::exists(out / "world.xodr"));
-  EXPECT_EQ(Asked("check", out).errors, "");
+  EXPECT_EQ(AskedOfWorld("check", out).errors, "");
   const auto again = road::World::Load(out / "w.yaml");
   ASSERT_TRUE(again.ok()) << again.error().Text();
   EXPECT_EQ(again.value()->content_hash(), road::World::Load(file).value()->content_hash());
@@ -356,8 +256,8 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   };
   ASSERT_TRUE(write(40).ok());
   ASSERT_EQ(Build(file, out).status, 0);
-  EXPECT_EQ(Asked("check", out).errors, "");
-  EXPECT_THAT(Asked("check", out).out,
+  EXPECT_EQ(AskedOfWorld("check", out).errors, "");
+  EXPECT_THAT(AskedOfWorld("check", out).out,
               HasSubstr(": every file of 'logical.txt' and 'visual.txt' is as it was written\n"));
   const auto problem = [&](const fs::path& where, const std::string& what) {
     return "rodeira: " + where.string() + ": " + what + "\n";
@@ -367,26 +267,26 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   std::string bytes = base::ReadText(tile).value();
   bytes[bytes.size() / 2] ^= 1;
   ASSERT_TRUE(base::WriteWhole(tile, bytes).ok());
-  const Said broken = Asked("check", out);
+  const Said broken = AskedOfWorld("check", out);
   EXPECT_EQ(broken.status, 2);
   EXPECT_EQ(broken.errors, problem(tile, "this file of what is seen is not as it was written"));
   fs::remove(other);
-  const Said missing = Asked("check", out);
+  const Said missing = AskedOfWorld("check", out);
   EXPECT_EQ(missing.status, 2);
   EXPECT_EQ(missing.errors, broken.errors + problem(other, "this file of what is seen is missing"));
   EXPECT_EQ(missing.out, "");
   ASSERT_EQ(Build(file, out).status, 0);  // both are made anew
-  EXPECT_EQ(Asked("check", out).status, 0);
+  EXPECT_EQ(AskedOfWorld("check", out).status, 0);
 
   const std::string list = base::ReadText(manifest).value();
   const std::size_t line = list.find(" tiles/0_0_1.osgb") - 33, end = list.find('\n', line);
   std::string odd = list;
   odd[line] = 'x';  // no digit: what the line names would go unseen
   ASSERT_TRUE(base::WriteWhole(manifest, odd).ok());
-  EXPECT_EQ(Asked("check", out).errors,
+  EXPECT_EQ(AskedOfWorld("check", out).errors,
             problem(manifest, "the line '" + odd.substr(line, end - line) + "' names no file with its hash"));
   fs::remove(manifest);
-  const Said unlisted = Asked("check", out);
+  const Said unlisted = AskedOfWorld("check", out);
   EXPECT_EQ(unlisted.status, 2);
   EXPECT_EQ(
       unlisted.errors,
@@ -395,29 +295,11 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   // The tiles of one world beside the roads of another.
   ASSERT_TRUE(write(50).ok());
   ASSERT_EQ(Build(file, out).status, 0);
-  EXPECT_EQ(Asked("check", out).status, 0);
+  EXPECT_EQ(AskedOfWorld("check", out).status, 0);
   ASSERT_TRUE(base::WriteWhole(manifest, list).ok());
-  EXPECT_THAT(Asked("check", out).errors, testing::StartsWith("rodeira: " + manifest.string() +
-                                                              ": it was written from a world whose content hash is '"));
-}
-
-// What the traffic of a run would refuse, the check says before: lights that are green together where their ways cross,
-// with the line of the phases.
-TEST(WorldCheck, TellsOfLightsThatAreGreenTogether) {
-  const TemporaryFolder folder;
-  std::string text = base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value();
-  const std::string right = "green: [cross], for_s: 25";
-  const std::size_t at = text.find(right);
-  ASSERT_NE(at, std::string::npos);
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  text.replace(at, right.size(), "green: [cross, main], for_s: 25");
-  ASSERT_TRUE(base::WriteWhole(folder.path() / "lights.yaml", text).ok());
-  const Said said = Asked("check", folder.path() / "lights.yaml");
-  EXPECT_EQ(said.status, 2);
-  EXPECT_EQ(said.out, "");
-  EXPECT_THAT(said.errors, HasSubstr((folder.path() / "lights.yaml").string() + ":" + std::to_string(line) +
-                                     ": the lights 'centre: main'"));
-  EXPECT_EQ(Asked("check", fs::path(SourceDir()) / "configs/worlds/lights.yaml").status, 0);
+  EXPECT_THAT(
+      AskedOfWorld("check", out).errors,
+      testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world whose content hash is '"));
 }
 
 // On a plane too the world file comes along: bumps and patches stand nowhere else.
@@ -439,10 +321,10 @@ TEST(WorldOfAMap, IsAWorldWithoutAWorldFile) {
   const fs::path map = folder.path() / "lights.motors", beside = folder.path() / "lights.motors.yaml";
   fs::copy_file(SourceDir() + "/configs/maps/lights.motors", map);
   fs::copy_file(SourceDir() + "/configs/maps/lights.motors.yaml", beside);
-  EXPECT_EQ(Asked("check", map).out, map.string() + ": no problem found\n");
-  EXPECT_EQ(Asked("map", map, folder.path() / "plan.svg").status, 0);
+  EXPECT_EQ(AskedOfWorld("check", map).out, map.string() + ": no problem found\n");
+  EXPECT_EQ(AskedOfWorld("map", map, folder.path() / "plan.svg").status, 0);
   for (const char* command : {"build", "export"}) {
-    const Said said = Asked(command, map, folder.path() / "out");
+    const Said said = AskedOfWorld(command, map, folder.path() / "out");
     EXPECT_EQ(said.status, 2) << command;
     EXPECT_THAT(said.errors, HasSubstr("this is a traffic map; `rodeira map convert " + map.string() +
                                        " -o lights.yaml` makes a world file of it"))
@@ -452,7 +334,7 @@ TEST(WorldOfAMap, IsAWorldWithoutAWorldFile) {
   fs::remove(beside);
   EXPECT_NE(road::World::Load(map).value()->content_hash(), hash);  // its lights are gone
   ASSERT_TRUE(base::WriteWhole(map, base::ReadText(map).value().substr(0, 500)).ok());
-  const Said cut = Asked("check", map);
+  const Said cut = AskedOfWorld("check", map);
   EXPECT_EQ(cut.status, 2);
   EXPECT_THAT(cut.errors, HasSubstr("lights.motors: the file ends at byte 500"));
 }

@@ -3,25 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/random.hpp"
-#include "idl/codec.hpp"
-#include "idl/messages.hpp"
-#include "launch/rodeira/replay/marks_reader.hpp"
 #include "launch/rodeira/replay/recorded_moments.hpp"
 #include "launch/rodeira/replay/recorded_view.hpp"
 #include "nodes/view/frame/surface.hpp"
-#include "nodes/view/run_connection/from_wire.hpp"
-#include "tests/common/runtime/replay/made_recording.hpp"
-#include "tests/launch/rodeira/replay/copied_recording.hpp"
-#include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/launch/rodeira/replay/watch_fixture.hpp"
 #include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
-#include "tests/tree.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -31,110 +22,6 @@ using system_test::Bin;
 using system_test::LaunchFile;
 using system_test::RunCommand;
 using ::testing::HasSubstr;
-
-constexpr Step kLast = 6'010;  // no activation of the view
-
-// A car that weaves and traffic of which one agent goes away at 3 s and comes again elsewhere, seen every 20 ms.
-constexpr const char* kLaunch =
-    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle, period_s: 0.004}\n  others: "
-    "{kind: "
-    "traffic, period_s: 0.01}\n"
-    "  picture: {kind: view, config: {width_px: 320, height_px: 180, camera: driver, instruments: false, window: "
-    "never, "
-    "frames: {times_s: [1], folder: /proc/nowhere}}}\n";
-
-base::Bytes Payload(const lockstep::Source& source, Step step) {
-  const double t = 0.001 * static_cast<double>(step);
-  if (source.topic == idl::topics::kControls) return idl::Encode(msg::Controls());
-  if (source.topic == idl::topics::kVehicleState) {
-    msg::VehicleState car;
-    car.position_w_m().x(20.0 * t);
-    car.position_w_m().y(3.0 * std::sin(t));
-    car.attitude_wb().w(std::cos(0.1 * t));
-    car.attitude_wb().z(std::sin(0.1 * t));
-    for (auto& wheel : car.wheels()) {
-      wheel.spin_rad(std::remainder(60.0 * t, 6.283185307179586));
-      wheel.spin_radps(60.0);
-    }
-    return idl::Encode(car);
-  }
-  if (source.topic == idl::topics::kSignalsState) return idl::Encode(msg::SignalsState());
-  if (source.topic == idl::topics::kTrafficDetails) {  // ten times a second; nothing between
-    msg::TrafficDetails details;
-    for (const std::uint32_t id : {4U, 9U}) {
-      if (step % 100 != 0) break;
-      msg::TrafficDetail detail;
-      detail.id(id);
-      detail.gear(static_cast<std::int32_t>(id));
-      detail.target_speed_mps(static_cast<float>(t));
-      details.agents().push_back(detail);
-    }
-    return idl::Encode(details);
-  }
-  msg::TrafficState traffic;
-  for (const std::uint32_t id : {4U, 9U}) {
-    msg::TrafficAgent agent;
-    agent.id(id);
-    agent.trip(id == 9 && step >= 3'000 ? 1 : 0);
-    agent.position_x_m(id == 9 && step >= 3'000 ? -500.0 : 10.0 * t + id);
-    agent.heading_rad(0.2 * t);
-    traffic.agents().push_back(agent);
-  }
-  return idl::Encode(traffic);
-}
-
-bool Same(const scene::SceneSnapshot& a, const scene::SceneSnapshot& b) {
-  if (a.time_ns != b.time_ns || a.cars.size() != b.cars.size() || a.agents.size() != b.agents.size()) return false;
-  for (std::size_t i = 0; i < a.cars.size(); ++i) {
-    if (a.cars[i].p_WB_W != b.cars[i].p_WB_W || a.cars[i].q_WB.coeffs() != b.cars[i].q_WB.coeffs()) return false;
-    if (a.cars[i].wheels[2].spin_rad != b.cars[i].wheels[2].spin_rad || a.cars[i].gear != b.cars[i].gear) return false;
-  }
-  for (std::size_t i = 0; i < a.agents.size(); ++i) {
-    if (a.agents[i].id != b.agents[i].id || a.agents[i].p_WB_W != b.agents[i].p_WB_W ||
-        a.agents[i].q_WB.coeffs() != b.agents[i].q_WB.coeffs())
-      return false;
-  }
-  return true;
-}
-
-class WatchTest : public ::testing::Test {
- protected:
-  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
-  std::string Made(const std::string& launch = kLaunch, const std::function<void(record::McapWriter&)>& more = {}) {
-    replay::MadeRecording wish;
-    wish.launch_text = launch;
-    wish.last_step = kLast;
-    wish.payload = Payload;
-    wish.more = more;
-    replay::Make(wish, Path("made.mcap"));
-    return Path("made.mcap");
-  }
-  static RecordedMoments MomentsOf(const replay::RecordedRun& run) {
-    const auto seen = LookAt(run, {});
-    EXPECT_TRUE(seen.ok()) << seen.error().Text();
-    return {run, seen.value().sources, seen.value().period};
-  }
-  static system_test::Ended Replay(std::vector<std::string> words) {
-    words.insert(words.begin(), {"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "replay"});
-    return RunCommand(words);
-  }
-  TemporaryFolder folder_;
-};
-
-// What the live view's window had in hand: a moment at each of its activations, made from the newest samples.
-scene::PoseHistory HistoryUpTo(const replay::RecordedRun& run, Step step) {
-  scene::PoseHistory history;
-  for (Step at = std::max<Step>(0, step - 100) / 20 * 20; at <= std::min(step, kLast); at += 20) {
-    nodes::NewestSamples newest;
-    for (lockstep::SourceIndex s = 0; s < run.roster().sources().size(); ++s) {
-      const auto& source = run.roster().source(s);
-      if (source.topic != idl::topics::kVehicleState && source.topic != idl::topics::kTrafficState) continue;
-      newest[s] = std::make_shared<const base::Bytes>(Payload(source, lockstep::FloorTo(at, source.period)));
-    }
-    history.Add(nodes::MakeMoment(run.roster(), at, newest).value());
-  }
-  return history;
-}
 
 TEST_F(WatchTest, MovesAsTheLiveViewMovedInWhateverOrder) {
   const auto run = replay::RecordedRun::Open(Made());
@@ -240,139 +127,6 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   EXPECT_EQ(seen_driven.value().settings.autopilots.begin()->second.driver.filename(), "driver.yaml");
 }
 
-TEST_F(WatchTest, OfRemarksOnlyMarksAreOnTheBar) {
-  const auto remark = [](std::int64_t time_ns, const std::string& kind, const std::string& text) {
-    msg::Remark one;
-    one.time_ns(time_ns);
-    one.kind(kind);
-    one.text(text);
-    return idl::Encode(one);
-  };
-  const auto run = replay::RecordedRun::Open(Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = replay::AddTopic(writer, idl::topics::kRemarks);
-    for (const auto& [time_ns, payload] :
-         {std::pair(0, remark(0, "start", "")), std::pair(5'000, remark(5'000, "mark", "second\nlap")),
-          std::pair(2'000, remark(2'000, "pause", "")), std::pair(3'000, remark(3'000, "fault", "")),
-          std::pair(4'000, remark(4'000, "mark", std::string(58, 'x') + "ángulo"))}) {
-      replay::Must(writer.Write(channel, 0, static_cast<std::uint64_t>(time_ns), 0, payload));
-    }
-  }));
-  ASSERT_TRUE(run.ok()) << run.error().Text();
-  const auto marks = MarksOf(run.value());
-  ASSERT_TRUE(marks.ok()) << marks.error().Text();
-  ASSERT_EQ(marks.value().size(), 3u);
-  EXPECT_EQ(marks.value()[0].text, "fault");
-  EXPECT_EQ(marks.value()[1].text, std::string(58, 'x') + "á...") << "a letter is not cut in two";
-  EXPECT_EQ(marks.value()[2].time_ns, 5'000);
-  EXPECT_EQ(marks.value()[2].text.find('\n'), std::string::npos);
-}
-
-// What a scenario did, and what people asked for in the window, is found again where it was valid; samples without an
-// event are none.
-TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
-  const auto event = [](const std::string& name, const std::string& argument, double value) {
-    msg::ScenarioEvent one;
-    one.name(name);
-    one.argument(argument);
-    one.value(value);
-    return one;
-  };
-  const auto run = replay::RecordedRun::Open(Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = replay::AddTopic(writer, idl::topics::kScenarioEvents);
-    for (int step = 0; step < 5; ++step) {
-      msg::ScenarioEvents events;
-      if (step == 1) events.events() = {event("weather", "rain", 8.0), event("mark", "here it begins", 0.0)};
-      if (step == 3) events.events() = {event("traffic.release", "all", 0.0)};
-      if (step == 4)
-        events.events() = {event("traffic.change_lane", "3", -1.0),
-                           event("vehicle.place", "ego -1960.3132921686006 -534.1019500003695 20", 0.0)};
-      replay::Must(writer.Write(channel, 0, static_cast<std::uint64_t>(step) * 1'000, 0, idl::Encode(events)));
-    }
-  }));
-  ASSERT_TRUE(run.ok()) << run.error().Text();
-  const auto marks = MarksOf(run.value());
-  ASSERT_TRUE(marks.ok()) << marks.error().Text();
-  ASSERT_EQ(marks.value().size(), 5u);
-  EXPECT_EQ(marks.value()[4].text, "vehicle.place ego -1960.31 -534.102 20");
-  EXPECT_EQ(marks.value()[0].text, "weather rain 8");
-  EXPECT_EQ(marks.value()[1].text, "here it begins");
-  EXPECT_EQ(marks.value()[2].text, "traffic.release all");
-  EXPECT_EQ(marks.value()[3].text, "traffic.change_lane 3 right");
-  EXPECT_EQ(marks.value()[0].time_ns, 1'000);
-  EXPECT_EQ(marks.value()[2].time_ns, 3'000);
-  for (const nodes::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, nodes::MarkKind::kEvent);
-}
-
-// What a picture does not need may be of another version.
-TEST_F(WatchTest, OfAnotherVersionTheNeededTopicsMustMatch) {
-  const auto with_idl = [&](const std::string& type, const std::string& before, const std::string& after) {
-    CopyRecording(
-        Made(), Path("other.mcap"), [](const std::string&, record::TextMap&) {},
-        [](const std::string&, const record::Message&, base::Bytes&) { return true; },
-        [](const std::string&) { return true; }, {},
-        [&](const std::string& of, std::string& text) {
-          if (of == type) text.replace(text.find(before), before.size(), after);
-        });
-    return replay::RecordedRun::Open(Path("other.mcap"));
-  };
-  const auto controls = with_idl("rodeira::msg::Controls", "double throttle", "double accelerator");
-  ASSERT_TRUE(controls.ok()) << controls.error().Text();
-  const auto seen = LookAt(controls.value(), {});
-  ASSERT_TRUE(seen.ok()) << seen.error().Text();
-  EXPECT_TRUE(MomentsOf(controls.value()).Exactly(1'000).ok());
-
-  const auto car = with_idl("rodeira::msg::VehicleState", "double odometer_m", "float odometer_m");
-  ASSERT_TRUE(car.ok()) << car.error().Text();
-  const auto refused = LookAt(car.value(), {});
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().exit_status(), 2);
-  EXPECT_THAT(refused.error().Text(),
-              HasSubstr("topic rodeira/vehicle_state: rodeira::msg::VehicleState, member 9: found 'float odometer_m', "
-                        "expected 'double odometer_m'"));
-}
-
-// Its topics, types and members had other names.
-TEST_F(WatchTest, ARecordingWithFormerNamesIsShown) {
-  const auto run = replay::RecordedRun::Open(SourceDir() + "/tests/data/recordings/scripted_2c2fa2f4.mcap");
-  ASSERT_TRUE(run.ok()) << run.error().Text();
-  auto moments = MomentsOf(run.value());
-  const auto moment = moments.Exactly(200);
-  ASSERT_TRUE(moment.ok()) << moment.error().Text();
-  ASSERT_EQ(moment.value().cars.size(), 1u);
-  EXPECT_GT(moment.value().cars[0].fuel_used_l, 0.0);
-  EXPECT_TRUE(MarksOf(run.value()).ok());
-  EXPECT_FALSE(run.value().ChannelsOf(idl::topics::kWallTime).empty());
-}
-
-TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
-  const std::filesystem::path file = Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = replay::AddTopic(writer, idl::topics::kRemarks);
-    msg::Remark remark;
-    remark.time_ns(2'000);
-    remark.kind("mark");
-    remark.text("here");
-    replay::Must(writer.Write(channel, 0, 2'000, 0, idl::Encode(remark)));
-  });
-  MarksReader reader(file);
-  auto taken = reader.Take();
-  while (!taken) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    taken = reader.Take();
-  }
-  ASSERT_TRUE(taken->ok()) << taken->error().Text();
-  ASSERT_EQ(taken->value().size(), 1u);
-  EXPECT_EQ(taken->value()[0].text, "here");
-  EXPECT_FALSE(reader.Take().has_value()) << "they are given once";
-
-  const auto run = replay::RecordedRun::Open(file);
-  ASSERT_TRUE(run.ok()) << run.error().Text();
-  EXPECT_TRUE(MarksOf(run.value(), [] { return true; }).value().empty())
-      << "who closes the window does not wait for them";
-  MarksReader missing(folder_.path() / "missing.mcap");
-  while (!(taken = missing.Take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_FALSE(taken->ok());
-}
-
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   // One of them between two activations, the last at the run's end.
@@ -474,33 +228,6 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
        {std::vector<std::string>{file, "--frames", out}, {file, "--at", "1"}, {file, "--speed", "2"}}) {
     EXPECT_EQ(Replay(half).status, 2);
   }
-}
-
-TEST_F(WatchTest, WhereNothingMovesThereIsNothingToSee) {
-  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--in-process", "--for", "0.2",
-                               "--record", Path("empty.mcap"), "--quiet"});
-  ASSERT_EQ(run.status, 0) << run.out;
-  const auto replay = Replay({Path("empty.mcap"), "--view"});
-  EXPECT_EQ(replay.status, 2);
-  EXPECT_THAT(replay.out, HasSubstr("neither a car nor traffic"));
-}
-
-TEST_F(WatchTest, ADamagedPlaceIsNamedAndTheRestIsShown) {
-  if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
-  const std::string file = Made();
-  {
-    const auto reader = record::McapReader::Open(file);
-    const auto& chunk = reader.value().chunks().at(3);
-    std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
-    bytes.seekp(static_cast<std::streamoff>(chunk.offset + chunk.record_bytes - 20));
-    bytes.put('\x5a').put('\x5a').put('\x5a');
-  }
-  const auto there = Replay({file, "--frames", Path("out"), "--at", "3.5"});
-  EXPECT_EQ(there.status, 2) << there.out;
-  EXPECT_THAT(there.out, HasSubstr("is damaged"));
-  const auto elsewhere = Replay({file, "--frames", Path("out"), "--at", "1"});
-  EXPECT_EQ(elsewhere.status, 0) << elsewhere.out;
-  EXPECT_TRUE(std::filesystem::exists(Path("out/step_000001000.png")));
 }
 
 }  // namespace
