@@ -30,5 +30,5 @@ from .world import Lane, Next, Place, World
 
 __all__ = ["Attachment", "Box", "Env", "Error", "Event", "Lane", "Mark", "Measure", "Measures", "Next", "Path",
            "Place", "Ragged", "Recording", "RecordingWarning", "Remark", "Row", "Samples", "Topic", "World",
-           "correct_changes", "highd", "mean_deviation", "measure_names", "measures", "open", "pet", "raff_gap", "run", "series",
-           "series_names", "troutbeck_gap"]
+           "correct_changes", "highd", "mean_deviation", "measure_names", "measures", "open", "pet", "raff_gap", "run",
+           "series", "series_names", "troutbeck_gap"]

@@ -181,7 +181,8 @@ def _columns_of(table: Any, columns: Columns | None, time: str, rate_hz: float |
     if columns is None:
         columns = {name: name for name in names if name in known}
         if not columns and "dhw" in names:
-            raise Error("the table has columns of highD; rodeira.measures(rodeira.highd(table, vehicle)[0]) was expected")
+            raise Error("the table has columns of highD; rodeira.measures(rodeira.highd(table, vehicle)[0]) was "
+                        "expected")
         if not columns:
             raise Error(f"no column has a name of Rodeira ({', '.join(known[:5])} …); columns={{…}} was expected")
 

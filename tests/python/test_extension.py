@@ -113,7 +113,7 @@ class MeasuresOfRecordings(unittest.TestCase):
 @needs_extension
 @unittest.skipUnless(PROGRAM, "RODEIRA does not name the program")
 class WayAhead(unittest.TestCase):
-    """On a straight street across a crossing with lights: what lies ahead stands still, and shows the lights' colours."""
+    """On a straight street across a crossing with lights: what lies ahead stands still, and shows its colours."""
     @classmethod
     def setUpClass(cls):
         cls.drive = rodeira.run(ROOT / "launch/lights.yaml", for_s=45, in_process=True,

@@ -34,7 +34,8 @@ def tracks(direction, offset_m=0.3):
         leads = frame < 400
         lag_gap = LAG_GAP_M - (LAG_MPS - OWN_MPS) * t
         gap = GAP_M - (OWN_MPS - LEADER_MPS) * t
-        boxes = {OWN: (rear, LENGTH, OWN_MPS, own_lane), LAG: (rear - lag_gap - LAG_LENGTH, LAG_LENGTH, LAG_MPS, left_lane)}
+        boxes = {OWN: (rear, LENGTH, OWN_MPS, own_lane),
+                 LAG: (rear - lag_gap - LAG_LENGTH, LAG_LENGTH, LAG_MPS, left_lane)}
         if leads:
             boxes[LEADER] = (rear + LENGTH + gap, LEADER_LENGTH, LEADER_MPS, own_lane)
         for vehicle, (low, length, speed, lane) in boxes.items():
@@ -105,8 +106,8 @@ class MeasuresOfHighD(unittest.TestCase):
                 table = tracks(direction)
                 columns, size = rodeira.highd(table, OWN, markings=";".join(map(str, MARKINGS)))
                 far = {name: {"max_time_gap_s": 10} for name in ("minDHW", "minTHW", "minTTC", "leader_share")}
-                names = ["minDHW", "minTHW", "minTTC", "leader_share", "maxXVelocity", "meanXVelocity", "numLaneChanges",
-                         "traveledDistance", "sdlp_m"]
+                names = ["minDHW", "minTHW", "minTTC", "leader_share", "maxXVelocity", "meanXVelocity",
+                         "numLaneChanges", "traveledDistance", "sdlp_m"]
                 got = rodeira.measures(columns, names, options=far, **size)
                 own = table["id"] == OWN
                 for name, column in (("gap_min_m", "dhw"), ("time_gap_min_s", "thw"), ("ttc_min_s", "ttc")):
@@ -136,7 +137,8 @@ class MeasuresOfHighD(unittest.TestCase):
             table["followingId"][np.flatnonzero(own)[over]] = LAG
             table["leftFollowingId"][np.flatnonzero(own)[over]] = 0
             columns, size = rodeira.highd(table, OWN, markings=MARKINGS)
-            got = rodeira.measures(columns, ["lane_changes_n", "lane_change_severity_s", "lane_change_urgency_s"], **size)
+            got = rodeira.measures(columns, ["lane_changes_n", "lane_change_severity_s", "lane_change_urgency_s"],
+                                   **size)
             self.assertEqual(got["lane_changes_n"][0], 1.0)
             # The lateral speed is below 0.1 m/s for the last 0.14 s.
             self.assertAlmostEqual(got["lane_change_severity_s"][0], LAG_GAP_M / 8.0 - 10.86, delta=0.06)

@@ -23,7 +23,7 @@ class Rig {
   const Hub& hub() const { return *hub_; }
   static std::string Address(int host) { return "10.77.0." + std::to_string(host + 1); }
   static std::string Name(int host);
-  // Of the run: another one in each test program, whose processes all see each other.
+  // Of the run: another one in each test program: the processes of all of them see each other.
   static std::string RunName();
   // A laboratory file of the first `hosts` of them: domain 9, the run has RunName().
   static std::string Laboratory(int hosts, const std::string& discovery);

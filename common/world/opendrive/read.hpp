@@ -83,7 +83,7 @@ network::Controller ReadController(const Node& controller);
 // CARLA and RoadRunner, hold for these lanes: their orientation is turned, with one warning.
 void TurnLights(const std::vector<network::Controller>& controllers, std::vector<RoadReading>& readings,
                 Findings& findings);
-// Lights whose upper end is less than 1 m over the road, as in two towns of CARLA, are put at 2.2 m, with one warning.
+// Lights with an upper end less than 1 m over the road, as in two towns of CARLA, are put at 2.2 m, with one warning.
 void RaiseLights(std::vector<RoadReading>& readings, Findings& findings);
 // Controllers that a junction names and that say no times take turns, in the order of the junctions: 20 s of green, 3 s
 // of amber, 2 s of red for all. Junctions that share a controller, or that a short road joins, take turns together.

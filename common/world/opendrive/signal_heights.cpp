@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights whose file puts them on or under the road, as the towns of CARLA do.
+// Lights that a file puts on or under the road, as towns of CARLA do.
 #include <fmt/format.h>
 
 #include "common/world/opendrive/checks.hpp"
