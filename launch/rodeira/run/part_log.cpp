@@ -82,12 +82,15 @@ void PartLog::Finish() {
 }
 
 void PartLog::Take(std::string line) {
-  if (!is_opened_) file_ = OpenFile(folder_, part_);
-  is_opened_ = true;
+  const bool is_last_word = line.starts_with(dds::kLastWord);
+  if (is_last_word) last_word_ = line.substr(dds::kLastWord.size());
+  if (!is_opened_ && !is_last_word) {  // the run says the same: no file begins with it
+    file_ = OpenFile(folder_, part_);
+    is_opened_ = true;
+  }
   if (file_) file_->log(LevelOf(line), line);
   if (!IsForLogAlone(line)) std::fprintf(stderr, "%s\n", line.c_str());
   if (auto place = CrashPlace(line); !place.empty()) crash_place_ = std::move(place);
-  if (line.starts_with(dds::kLastWord)) last_word_ = line.substr(dds::kLastWord.size());
   last_lines_.push_back(std::move(line));
   if (last_lines_.size() > kLastLines) last_lines_.pop_front();
 }

@@ -146,7 +146,7 @@ TEST_F(FmuCar, WrongFilesAreRefused) {
   EXPECT_THAT(Refusal({{"name=\"start_x_m\"", "name=\"begin_x_m\""}}), HasSubstr("no variable 'start_x_m'"));
   EXPECT_THAT(Refusal({{"valueReference=\"0\" causality=\"output\"><Real unit=\"m\"",
                         "valueReference=\"0\" causality=\"output\"><Real unit=\"kg\""}}),
-              HasSubstr("modelDescription.xml:5: 'x_m' of the FMU is declared in 'kg'; 'm' was expected"));
+              HasSubstr("modelDescription.xml:6: 'x_m' of the FMU is declared in 'kg'; 'm' was expected"));
   EXPECT_THAT(Refusal({{"valueReference=\"13\" causality=\"input\"", "valueReference=\"13\" causality=\"output\""}}),
               HasSubstr("'throttle' of the FMU is declared 'output'; 'input' was expected"));
   EXPECT_THAT(Refusal({{"<Real unit=\"rad\"/>", "<String/>"}}), HasSubstr("is no number"));

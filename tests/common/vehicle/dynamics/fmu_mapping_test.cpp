@@ -93,7 +93,7 @@ TEST_F(FmuMapping, AUnitOfAnotherQuantityIsRefusedWithItsLine) {
   EXPECT_THAT(Refusal(WithUnits({{kVx, "valueReference=\"6\" causality=\"output\"><Real unit=\"degF\""}})),
               HasSubstr("'velocity_x_mps' of the FMU is declared in 'degF'; 'm/s' was expected"));
   EXPECT_THAT(Refusal({{kVx, "valueReference=\"6\" causality=\"output\"><Real unit=\"furlong/h\""}}),
-              HasSubstr("car.fmu: modelDescription.xml:11: 'velocity_x_mps'"));
+              HasSubstr("car.fmu: modelDescription.xml:12: 'velocity_x_mps'"));
 }
 
 // Usual units count where the file defines none; radian may be missing in a definition of a degree.

@@ -139,9 +139,9 @@ TEST(OpenDrive, ASignThatIsNotKnownIsTold) {
   };
   road.more = "<signals>" + sign("a", R"(type="274" subtype="-1" country="DE" value="70" unit="km/h")") +
               sign("b", R"(type="274" subtype="57" country="OpenDRIVE")") +
-              sign("c", R"(type="1000001" subtype="-1" dynamic="yes")") + sign("d", R"(type="294" subtype="-1")") +
-              sign("e", R"(type="1000003" subtype="-1")") + sign("f", R"(type="-1" subtype="-1")") +
-              sign("g", R"(type="777" subtype="-1" height="0.03")") +
+              sign("c", R"(type="1000001" subtype="-1" dynamic="yes" zOffset="3")") +
+              sign("d", R"(type="294" subtype="-1")") + sign("e", R"(type="1000003" subtype="-1")") +
+              sign("f", R"(type="-1" subtype="-1")") + sign("g", R"(type="777" subtype="-1" height="0.03")") +
               sign("w", R"(type="c" subtype="31" country="se")") +
               sign("x", R"(type="777" subtype="-1" country="DE")") + sign("y", R"(type="103" subtype="30")") +
               sign("z", R"(type="274" subtype="-1" country="DE")") + "</signals>";

@@ -81,7 +81,17 @@ TEST(OpenDrive, EveryRuleThatARealFileBreaksIsListed) {
       for (const Finding& finding : *findings) broken.insert(finding.rule);
   }
   EXPECT_GT(broken.size(), 10U);
-  for (const std::string& rule : broken) EXPECT_THAT(page, HasSubstr("| `" + rule + "` |"));
+  const auto has = [&](const std::string& text) { return page.find(text) != std::string::npos; };
+  // The page has `{}` for a part of a name that stands in no source.
+  const auto is_listed = [&](const std::string& rule) {
+    if (has("| `" + rule + "` |")) return true;
+    for (std::size_t dot = rule.find('.'); dot != std::string::npos; dot = rule.find('.', dot + 1)) {
+      const std::size_t end = std::min(rule.find('.', dot + 1), rule.size());
+      if (has("| `" + rule.substr(0, dot) + ".{}" + rule.substr(end) + "` |")) return true;
+    }
+    return false;
+  };
+  for (const std::string& rule : broken) EXPECT_TRUE(is_listed(rule)) << rule;
 }
 
 TEST(OpenDrive, SmallGapsAreWarningsAndStrictlyErrors) {

@@ -418,8 +418,10 @@ TEST(Repair, LightsOfOneControllerForCrossingWaysStayDark) {
   const auto with = [](double heading) {
     RoadText a = OneLane(), b = OneLane();
     b.id = "2", b.geometry = Line(0, 50, -90, heading, 100);
-    a.more = R"(<signals><signal id="1" s="90" t="-4" type="1000001" orientation="+" dynamic="yes"/></signals>)";
-    b.more = R"(<signals><signal id="2" s="90" t="-4" type="1000001" orientation="+" dynamic="yes"/></signals>)";
+    a.more = R"(<signals><signal id="1" s="90" t="-4" zOffset="3" type="1000001" orientation="+" dynamic="yes"/>)"
+             "</signals>";
+    b.more = R"(<signals><signal id="2" s="90" t="-4" zOffset="3" type="1000001" orientation="+" dynamic="yes"/>)"
+             "</signals>";
     return MustImport(
         Document(a.Text() + b.Text() +
                  R"(<controller id="c"><control signalId="1"/><control signalId="2"/></controller><junction id="5">)"

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "common/core/base/files.hpp"
 #include "launch/rodeira/run/failure_report.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
@@ -87,11 +89,18 @@ TEST_F(PartLogTest, RemembersTheForeignCodeOfACrashUntilTheNextProcess) {
 
 TEST_F(PartLogTest, TheLastWordOfANodeIsKeptUntilTheNextProcessButNotPrinted) {
   EXPECT_EQ(log_->last_word(), "");
-  EXPECT_EQ(Write("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\nrodeira: more\n"), "rodeira: more\n");
+  EXPECT_EQ(Write("rodeira: more\nrodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"), "rodeira: more\n");
   EXPECT_EQ(log_->last_word(), "refused 0 a.yaml:3: unknown key 'x'");
   EXPECT_THAT(File(), HasSubstr("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"));
   log_->ForgetEnd();
   EXPECT_EQ(log_->last_word(), "");
+}
+
+// A run that is refused leaves nothing.
+TEST_F(PartLogTest, ALastWordAloneMakesNoFile) {
+  EXPECT_EQ(Write("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"), "");
+  EXPECT_EQ(log_->last_word(), "refused 0 a.yaml:3: unknown key 'x'");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "logs"));
 }
 
 TEST_F(PartLogTest, FilesAreRotatedAndOldLinesForgotten) {
