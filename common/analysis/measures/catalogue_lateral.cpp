@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -48,42 +49,67 @@ const OptionInfo kCutChanges{"cut_lane_changes", 1, 0, 1, "1: samples of lane ch
 const OptionInfo kOnset{"onset_mps", 0.1, 0.001, 10, "a lane change begins and ends below this lateral speed"};
 const OptionInfo kDdof{"ddof", 1, 0, 1, "0: the sum of squares is divided by n, 1: by n - 1"};
 
-// Both lines, one after the other. intended: an indicator is on.
-struct BothSides {
+// Over the lines that count, one after the other.
+struct LineDepartures {
   std::vector<Departure> departures;
   std::vector<double> nearer_m;
 };
 
-BothSides DeparturesIn(const DriveCut& cut, const DepartureOptions& options) {
-  const Series left = cut(cut.drive.left_line_m), right = cut(cut.drive.right_line_m);
+DepartureOptions DepartureOptionsOf(const OptionValues& o) { return {o["hysteresis_m"], o["min_duration_s"]}; }
+
+constexpr std::array kSides{"both", "left", "right"};
+std::size_t SideOf(const OptionValues& o) { return static_cast<std::size_t>(std::lround(o["side"])); }
+
+// Distances of the part from the edge that counts, of the left line, the right one or both.
+std::vector<std::vector<double>> LinesOf(const DriveCut& cut, const OptionValues& o) {
+  std::vector<std::vector<double>> lines;
+  for (const Series line : {cut(cut.drive.left_line_m), cut(cut.drive.right_line_m)}) {
+    lines.emplace_back(line.begin(), line.end());
+    for (double& inside_m : lines.back()) inside_m += o["inset_m"] + o["paint_m"];
+  }
+  if (SideOf(o) == 1) lines.pop_back();
+  if (SideOf(o) == 2) lines.erase(lines.begin());
+  return lines;
+}
+
+// intended: an indicator is on, or it belongs to a lane change.
+LineDepartures DeparturesIn(const DriveCut& cut, const OptionValues& o) {
+  const auto lines = LinesOf(cut, o);
   const Series indicator = cut(cut.drive.indicator);
-  BothSides both;
-  for (std::size_t i = 0; i < left.size(); ++i) both.nearer_m.push_back(std::fmin(left[i], right[i]));
-  std::vector<std::uint8_t> intended(left.size());
+  LineDepartures found;
+  for (std::size_t i = 0; i < lines.front().size(); ++i)
+    found.nearer_m.push_back(std::fmin(lines.front()[i], lines.back()[i]));
+  std::vector<std::uint8_t> intended(indicator.size());
   for (std::size_t i = 0; i < intended.size(); ++i) intended[i] = indicator[i] > 0.0 ? 1 : 0;
   for (const LaneChange& change : ChangesIn(cut, 0.1)) {
     for (std::size_t i = change.begin; i <= change.end && i < intended.size(); ++i) intended[i] = 1;
   }
-  for (const Series line : {left, right}) {
-    for (const Departure& departure : Departures(line, cut.drive.rate_hz, options, intended)) {
-      if (!departure.intended) both.departures.push_back(departure);
+  for (const Series line : lines) {
+    for (const Departure& departure : Departures(line, cut.drive.rate_hz, DepartureOptionsOf(o), intended)) {
+      if (!departure.intended) found.departures.push_back(departure);
     }
   }
-  return both;
+  return found;
 }
 
-DepartureOptions DepartureOptionsOf(const OptionValues& o) { return {o["hysteresis_m"], o["min_duration_s"]}; }
-
-Measure WithPart(Measure measure) {
-  measure.options.push_back({"part", "footprint"});
-  measure.options.push_back({"line", "middle of the paint, both sides"});
+// of: DepartureCount and the like.
+template <auto of>
+Measure OfDepartures(const DriveCut& cut, const OptionValues& o) {
+  const LineDepartures found = DeparturesIn(cut, o);
+  Measure measure = of(found.departures, found.nearer_m, DepartureOptionsOf(o));
+  const char* side = kSides[SideOf(o)];
+  for (const UsedOption& option : Used({{"side", side}, {"inset_m", o["inset_m"]}, {"paint_m", o["paint_m"]}}))
+    measure.options.push_back(option);
   measure.options.push_back({"intended", "left out: indicator on, or a lane change"});
   return measure;
 }
 
 const std::vector<OptionInfo> kDepartureOptions{
-    {"hysteresis_m", 0.1, 0, 5, "a departure ends where the footprint is again so far inside"},
-    {"min_duration_s", 0.2, 0, 60, "shorter departures do not count"}};
+    {"hysteresis_m", 0.1, 0, 5, "a departure ends where the part is again so far inside"},
+    {"min_duration_s", 0.2, 0, 60, "shorter departures do not count"},
+    {"side", 0, 0, 2, "0: both lines, 1: the left one, 2: the right one"},
+    {"inset_m", 0, 0, 1, "the part: 0: the body's side; else so far inside it, such as a tyre's outer edge"},
+    {"paint_m", 0, -0.5, 0.5, "the edge that counts, outwards from the middle of the paint"}};
 
 // TLC 1 or 2 of the line that is approached: of the footprint, within each time in one lane.
 std::vector<double> TlcByDistance(const DriveCut& cut, bool second_order, double horizon_s) {
@@ -195,30 +221,15 @@ std::vector<MeasureInfo> LateralMeasures() {
          return Found(static_cast<double>(ChangesIn(cut, o["onset_mps"]).size()), "1", CountValid(y), y.size());
        }},
       {"lane_departures_n", family, "number of unintended departures over a line",
-       "runs in which the footprint is beyond a line", "without hysteresis one excursion is ten", "SAE J2944 10.2.4",
-       kDepartureOptions,
-       [](const DriveCut& cut, const OptionValues& o) {
-         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
-         return WithPart(DepartureCount(both.departures, both.nearer_m, DepartureOptionsOf(o)));
-       }},
+       "runs in which the part is beyond the edge of a line", "without hysteresis one excursion is ten",
+       "SAE J2944 10.2.4", kDepartureOptions, OfDepartures<DepartureCount>},
       {"lane_departures_share", family, "share of time in them", "time in departures / time with a lane",
        "of the time with a lane, not of the interval", "SAE J2944 10.2.4", kDepartureOptions,
-       [](const DriveCut& cut, const OptionValues& o) {
-         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
-         return WithPart(DepartureShare(both.departures, both.nearer_m, DepartureOptionsOf(o)));
-       }},
+       OfDepartures<DepartureShare>},
       {"lane_departure_greatest_m", family, "greatest distance beyond a line", "max of the distance beyond the line",
-       "missing, not 0, without a departure", "SAE J2944 10.2.4", kDepartureOptions,
-       [](const DriveCut& cut, const OptionValues& o) {
-         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
-         return WithPart(DepartureGreatest(both.departures, both.nearer_m, DepartureOptionsOf(o)));
-       }},
+       "missing, not 0, without a departure", "SAE J2944 10.2.4", kDepartureOptions, OfDepartures<DepartureGreatest>},
       {"lane_departure_area_ms", family, "integral of the distance beyond a line", "sum of distance dt",
-       "0 without a departure", "SAE J2944 10.2.4", kDepartureOptions,
-       [](const DriveCut& cut, const OptionValues& o) {
-         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
-         return WithPart(DepartureArea(both.departures, both.nearer_m, DepartureOptionsOf(o)));
-       }},
+       "0 without a departure", "SAE J2944 10.2.4", kDepartureOptions, OfDepartures<DepartureArea>},
       {"heading_error_mean_deg",
        family,
        "mean heading against the lane, positive to the left",

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/given_drive.hpp"
 #include "tests/common/analysis/measures/signals.hpp"
 
 namespace rodeira::measures {
@@ -51,6 +53,35 @@ TEST(LaneDeparture, ShortOnesAndGapsEndOne) {
   EXPECT_EQ(*DepartureCount(departures, inside, {}).value, 2.0);
   EXPECT_NEAR(*DepartureShare(departures, inside, {}).value, 130.0 / 999.0, 1e-12);
   EXPECT_NEAR(*DepartureGreatest(departures, inside, {}).value, 0.2, 1e-12);
+}
+
+// As measures: a parabola over the left line, at most 0.3 m, and one over the right one, at most 0.1 m. A part 0.15 m
+// inside the body goes over the left one alone, the outer edge of a paint of 0.12 m makes both smaller by 0.06 m.
+TEST(LaneDeparture, MeasuresSayWhichSidePartAndEdgeCount) {
+  constexpr double kA = 0.12;
+  GivenDrive given;
+  given.rate_hz = kRate;
+  given.columns["left_line_m"] = Sampled(20.0, kRate, [](double t) { return kA * (t - 5.0) * (t - 5.0) - 0.3; });
+  given.columns["right_line_m"] = Sampled(20.0, kRate, [](double t) { return kA * (t - 15.0) * (t - 15.0) - 0.1; });
+  given.columns["lane_position_m"] = std::vector<double>(2000, 0.0);
+  const Drive drive = DriveOf(given).value();
+  const auto measure = [&](const char* name, const std::map<std::string, double>& options) {
+    const MeasureInfo& info = *FindMeasure(name).value();
+    return info.compute({drive, 0, drive.size(), {}}, OptionValues(info.options, options));
+  };
+  const auto area_ms = [](double beyond_m) { return 4.0 / 3.0 * beyond_m * std::sqrt(beyond_m / kA); };
+  EXPECT_EQ(*measure("lane_departures_n", {}).value, 2.0);
+  EXPECT_EQ(*measure("lane_departures_n", {{"side", 1.0}}).value, 1.0);
+  EXPECT_EQ(*measure("lane_departures_n", {{"inset_m", 0.15}}).value, 1.0);
+  EXPECT_EQ(*measure("lane_departures_n", {{"side", 2.0}, {"inset_m", 0.15}}).value, 0.0);
+  EXPECT_NEAR(*measure("lane_departure_greatest_m", {{"side", 2.0}}).value, 0.1, 1e-12);
+  EXPECT_NEAR(*measure("lane_departure_greatest_m", {{"inset_m", 0.15}}).value, 0.15, 1e-12);
+  EXPECT_NEAR(*measure("lane_departure_area_ms", {}).value, area_ms(0.3) + area_ms(0.1), 1e-3);
+  EXPECT_NEAR(*measure("lane_departure_area_ms", {{"paint_m", 0.06}}).value, area_ms(0.24) + area_ms(0.04), 1e-3);
+  EXPECT_NEAR(*measure("lane_departure_area_ms", {{"paint_m", -0.06}}).value, area_ms(0.36) + area_ms(0.16), 1e-3);
+  const Measure right = measure("lane_departures_share", {{"side", 2.0}});
+  EXPECT_NEAR(*right.value, 2.0 * std::sqrt(0.1 / kA) / 20.0, 2e-3);
+  EXPECT_EQ(right.options[2], (UsedOption{"side", "right"}));
 }
 
 TEST(LaneDeparture, NoLineIsMissingAndNoDepartureIsZero) {
