@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of docs/reference/ends.md: each part of a run ended by each cause under each policy. RODEIRA_ENDS says how
-// many of its cells are run (24), spread over the table; 1000 runs all.
+// many of its cells are run (24), spread over the table; 1000 runs all. RODEIRA_DRAWN_ENDS says how many cells are drawn
+// and struck at a drawn instant (4), RODEIRA_DRAWN_ENDS_SEED the number of the first one. RODEIRA_DRAWN_ENDS_FILE names
+// a file that keeps the number of the next one: a sequence goes on where it was broken off.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -11,6 +13,7 @@
 #include <fstream>
 #include <future>
 #include <map>
+#include <random>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -52,11 +55,14 @@ int SignalOf(const std::string& name) {
   return 0;
 }
 
-// One cell of the table with real processes. What is not as the table says; empty: all is.
+// One cell of the table with real processes, struck `at` after the run began. What is not as the table says; empty: all
+// is.
 class CellRun {
  public:
-  CellRun(const Cell& cell, const std::string& undisturbed, const std::filesystem::path& folder, std::size_t number)
+  CellRun(const Cell& cell, std::chrono::milliseconds at, const std::string& undisturbed,
+          const std::filesystem::path& folder, std::size_t number)
       : cell_(cell),
+        at_(at),
         undisturbed_(undisturbed),
         name_(fmt::format("ends-{}-{}", ::getpid(), number)),
         recording_((folder / (name_ + ".mcap")).string()) {}
@@ -67,7 +73,8 @@ class CellRun {
                  to_its_end ? "4" : "100", "--record", recording_, "--set", "recovery=" + cell_.policy});
     if (!Runs(name_)) return "the run did not begin: " + run.Wait(10s).out;
     const pid_t victim = Victim(run);
-    if (victim <= 0) return "the part was not found";
+    if (victim <= 0) return cell_.Name() + ": the part was not found\n" + run.Wait(0s).out;
+    std::this_thread::sleep_for(at_);
     ::kill(victim, SignalOf(cell_.cause));
     const auto struck = std::chrono::steady_clock::now();
     if (cell_.outcome == "waits") {
@@ -89,11 +96,17 @@ class CellRun {
   }
 
  private:
+  // The clock answers before each node's process has its own command line.
   pid_t Victim(const Started& run) const {
     if (cell_.part == "rodeira run") return run.pid();
-    const auto found =
-        ProcessesWith("--run " + name_, cell_.part == "clock" ? "/rodeira-clock" : "--node " + cell_.part);
-    return found.size() == 1 ? found.front() : -1;
+    const auto until = std::chrono::steady_clock::now() + 20s;
+    do {
+      const auto found =
+          ProcessesWith("--run " + name_ + " ", cell_.part == "clock" ? "/rodeira-clock" : "--node " + cell_.part);
+      if (found.size() == 1) return found.front();
+      std::this_thread::sleep_for(5ms);
+    } while (std::chrono::steady_clock::now() < until);
+    return -1;
   }
   // A recorder that was killed or stopped leaves a file without an end; every other one is closed.
   void CheckRecording() {
@@ -104,31 +117,63 @@ class CellRun {
   void Add(const std::string& difference) { differences_ += (differences_.empty() ? "" : "; ") + difference; }
 
   const Cell& cell_;
+  const std::chrono::milliseconds at_;
   const std::string& undisturbed_;
   const std::string name_, recording_;
   std::string differences_;
 };
 
-TEST(Ends, AreThoseOfTheTable) {
-  const std::vector<Cell> table = ReadTable();
-  ASSERT_GT(table.size(), 90u) << "docs/reference/ends.md";
-  for (const Cell& cell : table) ASSERT_NE(SignalOf(cell.cause), 0) << cell.cause;
-  const cli::TemporaryFolder folder;
-  const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "4", "--in-process",
-                                 "--record", (folder.path() / "calm.mcap").string()});
-  ASSERT_EQ(calm.status, 0) << calm.out;
-  const std::string undisturbed = DigestIn(calm.out);
-  const auto wanted = std::min(static_cast<std::size_t>(Setting("RODEIRA_ENDS", 24)), table.size());
-  // Four runs at a time: they mostly wait.
-  for (std::size_t first = 0; first < wanted; first += 4) {
+class Ends : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_GT(table_.size(), 90u) << "docs/reference/ends.md";
+    for (const Cell& cell : table_) ASSERT_NE(SignalOf(cell.cause), 0) << cell.cause;
+    const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "4", "--in-process",
+                                   "--record", (folder_.path() / "calm.mcap").string()});
+    ASSERT_EQ(calm.status, 0) << calm.out;
+    undisturbed_ = DigestIn(calm.out);
+  }
+  std::future<std::string> Start(const Cell& cell, std::chrono::milliseconds at, std::size_t number) {
+    return std::async(std::launch::async, [this, &cell, at, number] {
+      return CellRun(cell, at, undisturbed_, folder_.path(), number).Differences();
+    });
+  }
+
+  const std::vector<Cell> table_ = ReadTable();
+
+ private:
+  const cli::TemporaryFolder folder_;
+  std::string undisturbed_;
+};
+
+constexpr std::uint64_t kAtATime = 4;  // runs: they mostly wait
+
+TEST_F(Ends, AreThoseOfTheTable) {
+  const auto wanted = std::min<std::uint64_t>(Setting("RODEIRA_ENDS", 24), table_.size());
+  for (std::uint64_t first = 0; first < wanted; first += kAtATime) {
     std::vector<std::future<std::string>> runs;
-    for (std::size_t i = first; i < std::min(first + 4, wanted); ++i) {
-      const Cell& cell = table[i * table.size() / wanted];
-      runs.push_back(std::async(std::launch::async, [&cell, &undisturbed, &folder, i] {
-        return CellRun(cell, undisturbed, folder.path(), i).Differences();
-      }));
-    }
+    for (std::uint64_t i = first; i < std::min(first + kAtATime, wanted); ++i)
+      runs.push_back(Start(table_[i * table_.size() / wanted], 0ms, i));
     for (auto& run : runs) EXPECT_EQ(run.get(), "");
+  }
+}
+
+TEST_F(Ends, DrawnOnesAreThoseOfTheTable) {
+  const char* file = std::getenv("RODEIRA_DRAWN_ENDS_FILE");
+  std::uint64_t first = Setting("RODEIRA_DRAWN_ENDS_SEED", 1);
+  if (file != nullptr) std::ifstream(file) >> first;
+  const std::uint64_t end = first + Setting("RODEIRA_DRAWN_ENDS", 4);
+  for (; first < end; first += kAtATime) {
+    std::vector<std::pair<std::string, std::future<std::string>>> runs;
+    for (std::uint64_t number = first; number < std::min(first + kAtATime, end); ++number) {
+      std::mt19937_64 lot(number);
+      const Cell& cell = table_[lot() % table_.size()];
+      const std::chrono::milliseconds at(lot() % 3000);
+      runs.emplace_back(fmt::format("RODEIRA_DRAWN_ENDS_SEED={}: {} at {} ms", number, cell.Name(), at.count()),
+                        Start(cell, at, number));
+    }
+    for (auto& [what, run] : runs) EXPECT_EQ(run.get(), "") << what;
+    if (file != nullptr) std::ofstream(file) << std::min(first + kAtATime, end) << "\n";
   }
 }
 
