@@ -111,12 +111,30 @@ function(rodeira_program name)
   rodeira_install_program(${name})
 endfunction()
 
+# Tests run beside each other (tests/run) by what they take of the machine, in quarters of a processor (PROCESSORS): one
+# that computes takes four, one that starts processes and waits for them three, one that only waits one. What is typed
+# and answered takes five: of two processors, none that computes runs beside it.
+set(RODEIRA_COMPUTES 4)
+set(RODEIRA_STARTS_PROCESSES 3)
+set(RODEIRA_WAITS 1)
+set(RODEIRA_BESIDE_WAITING 5)
+execute_process(COMMAND unshare --mount --net mount -t tmpfs tmpfs /dev/shm
+  RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+if(status EQUAL 0)
+  set(RODEIRA_ALONE ENVIRONMENT RODEIRA_OWN_MACHINE=1)
+else()
+  set(RODEIRA_ALONE RUN_SERIAL TRUE)
+endif()
+
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.
-# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). ALONE lists the tests, as
-# --gtest_filter does, that run while no other test does. The others of such a program mostly wait, and begin first
-# (COST), so that shorter tests fill the processors meanwhile.
+# PROPERTIES are passed to the discovered tests (TIMEOUT, PROCESSORS, LABELS …). ALONE lists the tests, as
+# --gtest_filter does, that want a machine without other runs: network and /dev/shm of their own where they can be made
+# (tests/system/own_machine.cpp is among SOURCES), otherwise no other test beside them. SERIAL lists those of them that
+# have no other test beside them anyhow: they measure seconds closely. WAITING lists tests apart from these that stand
+# nearly all the time. The others of such a program mostly wait, and begin first (COST), so that shorter tests fill the
+# processors meanwhile.
 function(rodeira_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;ALONE;SERIAL;WAITING" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   rodeira_precompile(${name}_test rodeira_pch_test)
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
@@ -124,18 +142,39 @@ function(rodeira_test name)
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
     GTest::gtest_main)
   rodeira_needs_geodata(${name}_test)
+  if(NOT "PROCESSORS" IN_LIST ARG_PROPERTIES AND NOT "RUN_SERIAL" IN_LIST ARG_PROPERTIES)
+    list(APPEND ARG_PROPERTIES PROCESSORS ${RODEIRA_COMPUTES})
+  endif()
   # A cache of the build folder's own, which its tests share as the processes of a run do.
   list(APPEND ARG_PROPERTIES ENVIRONMENT_MODIFICATION RODEIRA_CACHE=set:${CMAKE_BINARY_DIR}/cache)
   set(others)
   if(ARG_ALONE)
     list(JOIN ARG_ALONE ":" alone)
-    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${alone}"
-      TEST_LIST ${name}_alone PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL TRUE)
-    set(others TEST_FILTER "-${alone}")
+    list(JOIN ARG_SERIAL ":" serial)
+    list(JOIN ARG_WAITING ":" waiting)
+    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+      TEST_FILTER "${alone}-${serial}:${waiting}" TEST_LIST ${name}_alone
+      PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} ${RODEIRA_ALONE})
+    set(others TEST_FILTER "-${alone}:${serial}:${waiting}")
+    if(ARG_SERIAL)
+      gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${serial}"
+        TEST_LIST ${name}_serial PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} ${RODEIRA_ALONE} RUN_SERIAL TRUE)
+    endif()
     list(APPEND ARG_PROPERTIES COST 60)
+    if(ARG_WAITING)
+      gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${waiting}"
+        TEST_LIST ${name}_waiting PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} ${RODEIRA_ALONE}
+        PROCESSORS ${RODEIRA_WAITS})
+    endif()
   endif()
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 ${others}
     PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES})
+endfunction()
+
+# rodeira_script_test(docs.check COMMAND …): a test that is no GoogleTest program.
+function(rodeira_script_test name)
+  add_test(NAME ${name} ${ARGN})
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${RODEIRA_COMPUTES})
 endfunction()
 
 # rodeira_bench(suelo SOURCES … LINK …): a Google Benchmark program, not a test.

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -123,10 +124,26 @@ std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& se
   return found;
 }
 
+namespace {
+
+// Asking a run costs a process, which takes time from the run that starts: not before it can be asked. False: it
+// cannot.
+bool HasControlSocket(const std::string& run_name) {
+  if (run_name.size() > 40) return true;  // its socket has another name
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  const std::string folder = runtime != nullptr && *runtime != '\0' ? std::string(runtime) + "/rodeira"
+                                                                    : "/tmp/rodeira-" + std::to_string(::getuid());
+  std::error_code problem;
+  return std::filesystem::exists(folder + "/" + run_name + ".ctl", problem);
+}
+
+}  // namespace
+
 bool Runs(const std::string& run_name, std::chrono::milliseconds limit) {
   const auto until = WallClock::now() + limit;
   while (WallClock::now() < until) {
-    if (RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).status == 0) return true;
+    if (HasControlSocket(run_name) && RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).status == 0)
+      return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return false;

@@ -90,12 +90,13 @@ TEST(Discovery, AServersPortInUseIsOneSentence) {
 class LabRefusal : public ::testing::Test {
  protected:
   std::string Of(const std::vector<std::string>& more) const {
-    std::vector<std::string> words{"--run", "lab-refusal"};
+    const std::string run_name = "lab-refusal-" + folder_.path().filename().string();
+    std::vector<std::string> words{"--run", run_name};
     words.insert(words.end(), more.begin(), more.end());
     const Ended ended = Empty(words);
     EXPECT_EQ(ended.status, 2) << ended.out;
     EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1) << "one sentence was expected:\n" << ended.out;
-    EXPECT_TRUE(ProcessesWith("--run lab-refusal").empty());
+    EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
     return ended.out;
   }
   const cli::TemporaryFolder folder_;

@@ -86,7 +86,7 @@ std::string Rig::Name(int host) {
   return std::vector<std::string>{"left", "right", "third"}.at(static_cast<std::size_t>(host));
 }
 
-std::string Rig::RunName() { return "rig-" + std::to_string(::getpid()); }
+std::string Rig::RunName() { return "rig-" + std::to_string(::getpid()) + "-pcs"; }
 
 std::string Rig::Laboratory(int hosts, const std::string& discovery) {
   std::string text = "rodeira: lab/1\ndomain: 9\nrun: " + RunName() + "\ndiscovery: " + discovery + "\nhosts:\n";

@@ -23,9 +23,9 @@ class Rig {
   const Hub& hub() const { return *hub_; }
   static std::string Address(int host) { return "10.77.0." + std::to_string(host + 1); }
   static std::string Name(int host);
-  // Of the run: another one in each test program: the processes of all of them see each other.
+  // The run that a laboratory file names: of this test program, so that several rigs may be there at once.
   static std::string RunName();
-  // A laboratory file of the first `hosts` of them: domain 9, the run has RunName().
+  // A laboratory file of the first `hosts` of them: domain 9, the run is RunName().
   static std::string Laboratory(int hosts, const std::string& discovery);
   // The command, in the network of this host.
   std::vector<std::string> On(int host, std::vector<std::string> command) const;
