@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of docs/reference/ends.md: each part of a run ended by each cause under each policy. RODEIRA_ENDS says how
-// many of its cells are run (24), spread over the table; 1000 runs all. RODEIRA_DRAWN_ENDS says how many cells are drawn
+// many of its cells are run (12), spread over the table; 1000 runs all. RODEIRA_DRAWN_ENDS says how many cells are drawn
 // and struck at a drawn instant (4), RODEIRA_DRAWN_ENDS_SEED the number of the first one. RODEIRA_DRAWN_ENDS_FILE names
 // a file that keeps the number of the next one: a sequence goes on where it was broken off.
 #include <fmt/format.h>
@@ -149,7 +149,7 @@ class Ends : public ::testing::Test {
 constexpr std::uint64_t kAtATime = 4;  // runs: they mostly wait
 
 TEST_F(Ends, AreThoseOfTheTable) {
-  const auto wanted = std::min<std::uint64_t>(Setting("RODEIRA_ENDS", 24), table_.size());
+  const auto wanted = std::min<std::uint64_t>(Setting("RODEIRA_ENDS", 12), table_.size());
   for (std::uint64_t first = 0; first < wanted; first += kAtATime) {
     std::vector<std::future<std::string>> runs;
     for (std::uint64_t i = first; i < std::min(first + kAtATime, wanted); ++i)

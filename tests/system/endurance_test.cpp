@@ -109,7 +109,7 @@ class RecorderKilled : public Endurance {
 
 // RODEIRA_RECORDER_KILLS says how often; RODEIRA_RECORDER_KILLS_SEED repeats a sequence of instants.
 TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
-  const auto kills = Setting("RODEIRA_RECORDER_KILLS", 4);
+  const auto kills = Setting("RODEIRA_RECORDER_KILLS", 3);
   const auto seed = Setting("RODEIRA_RECORDER_KILLS_SEED", std::random_device()());
   SCOPED_TRACE(fmt::format("RODEIRA_RECORDER_KILLS_SEED={}", seed));
   fmt::print("RODEIRA_RECORDER_KILLS_SEED={}\n", seed);

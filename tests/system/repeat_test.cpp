@@ -65,7 +65,7 @@ TEST_F(Repeat, RunsOfTheDemoUnderLoadAndOneInOneProcessAreTheSame) {
     EXPECT_EQ(other.frames, first.frames) << which;
   };
   for (unsigned i = 1; i < BriefOrLong(2u, 10u); ++i) {
-    const CpuLoad load((1 + i % 2) *
+    const CpuLoad load((1 + (i + 1) % 2) *
                        std::thread::hardware_concurrency());  // as many as there are processors, and twice that
     expect_same(Drive(std::to_string(i), {}), "run " + std::to_string(i) + " under load");
   }
