@@ -9,6 +9,7 @@
 #include "collisions.h"
 #include "controls.h"
 #include "ground.h"
+#include "joint_forces.h"
 #include "measures.h"
 #include "operator_input.h"
 #include "pulse.h"

@@ -12,6 +12,7 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kControls, "rodeira::msg::Controls", "controls", true},
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
       {topics::kCollisions, "rodeira::msg::Collisions", "collisions", true},
+      {topics::kJointForces, "rodeira::msg::JointForces", "joint_forces", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kTrafficDetails, "rodeira::msg::TrafficDetails", "traffic", true},
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},

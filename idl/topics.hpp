@@ -16,6 +16,7 @@ namespace topics {
 inline constexpr std::string_view kControls = "rodeira/controls";           ///< Controls of a vehicle
 inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";  ///< VehicleState of a vehicle
 inline constexpr std::string_view kCollisions = "rodeira/collisions";       ///< Collisions of a vehicle
+inline constexpr std::string_view kJointForces = "rodeira/joint_forces";    ///< JointForces of a multibody car
 inline constexpr std::string_view kTrafficState =
     "rodeira/traffic_state";  ///< TrafficState: position and motion of all traffic
 inline constexpr std::string_view kTrafficDetails =

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nodes/messages/vehicle_state.hpp"
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 
+#include "nodes/messages/rounding.hpp"
 #include "nodes/messages/vectors.hpp"
 
 namespace rodeira::nodes {
@@ -12,16 +11,7 @@ namespace {
 
 float Single(double value) { return static_cast<float>(value); }
 
-// As an instrument would show it: rounded to 16 significant bits, 1.6e-5 of the value at most. Bits below are noise,
-// which no compression finds: a recording is a fifth smaller without them.
-float Measured(double value) {
-  const float single = Single(value);
-  if (!std::isfinite(single)) return single;
-  constexpr std::uint32_t kLow = 0xFF;
-  auto bits = std::bit_cast<std::uint32_t>(single);
-  bits += (kLow >> 1) + ((bits >> 8) & 1U);  // to the nearest, and to even between two
-  return std::bit_cast<float>(bits & ~kLow);
-}
+using nodes::Measured;  // of a number
 
 msg::Vector3f Measured(const Eigen::Vector3d& v) {
   msg::Vector3f out;

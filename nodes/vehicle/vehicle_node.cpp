@@ -18,6 +18,7 @@
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 #include "nodes/messages/controls.hpp"
+#include "nodes/messages/joint_forces.hpp"
 #include "nodes/messages/vehicle_state.hpp"
 #include "nodes/vehicle/collisions.hpp"
 #include "nodes/vehicle/gust.hpp"
@@ -34,14 +35,15 @@ class VehicleNode final : public lockstep::Node {
   // `own`: null where the ground is asked for elsewhere.
   VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<dynamics::VehicleModel> model,
               const dynamics::InitialCondition& initial, std::unique_ptr<ground::Ground> own, ground::Ground& ground,
-              std::optional<Collisions> collisions)
+              std::optional<Collisions> collisions, bool publishes_joint_forces)
       : name_(std::move(name)),
         state_source_(state_source),
         model_(std::move(model)),
         initial_(initial),
         own_ground_(std::move(own)),
         ground_(ground),
-        collisions_(std::move(collisions)) {}
+        collisions_(std::move(collisions)),
+        publishes_joint_forces_(publishes_joint_forces) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
@@ -161,6 +163,7 @@ class VehicleNode final : public lockstep::Node {
     state.horn(controls.horn() != 0 ? 1 : 0);
     outbox.Put(topics::kVehicleState, idl::Encode(state));
     outbox.Put(topics::kCollisions, idl::Encode(touched));
+    if (publishes_joint_forces_) outbox.Put(topics::kJointForces, idl::Encode(ToMessage(model_->FindJointForces())));
   }
 
   std::string name_;
@@ -170,6 +173,7 @@ class VehicleNode final : public lockstep::Node {
   std::unique_ptr<ground::Ground> own_ground_;
   weather::WetGround ground_;             // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nothing
+  bool publishes_joint_forces_;
   Gust gust_;
   TyrePressures pressures_;
 };
@@ -234,6 +238,21 @@ std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::
   return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
+// Wrong input where the launch file asks a model without joints for their forces.
+base::Result<bool> PublishesJointForces(launch::NodeContext& context, const dynamics::VehicleModel& model) {
+  const lockstep::Roster& roster = context.launch().roster();
+  const auto& outputs = context.spec().outputs;
+  if (std::none_of(outputs.begin(), outputs.end(),
+                   [&](lockstep::SourceIndex output) { return roster.source(output).topic == topics::kJointForces; }))
+    return false;
+  if (model.has_joint_forces()) return true;
+  return base::WrongInput("vehicle.no_joints",
+                          fmt::format("'outputs' of node '{}' names joint_forces, but its vehicle has no joints; a "
+                                      "vehicle file with 'model: multibody' was expected",
+                                      context.spec().name),
+                          context.launch().path().string());
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context) {
@@ -243,6 +262,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   if (!model) return model.error();
   for (const std::string& note : dynamics::NotesOn(*model.value(), settings.vehicle))
     base::Log(base::LogLevel::kWarning, context.spec().name, note);
+  const auto joint_forces = PublishesJointForces(context, *model.value());
+  if (!joint_forces) return joint_forces.error();
   const auto summary = context.World();
   if (!summary) return summary.error();
   if (!settings.own_place) {
@@ -262,9 +283,9 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   std::unique_ptr<ground::Ground> own = own_ground ? world->MakeGround() : nullptr;
   ground::Ground& ground = own != nullptr ? *own : context.Ground();
   std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
-  return std::unique_ptr<lockstep::Node>(
-      std::make_unique<VehicleNode>(context.spec().name, context.spec().outputs.front(), std::move(model).value(),
-                                    settings.initial, std::move(own), ground, std::move(collisions)));
+  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(
+      context.spec().name, context.spec().outputs.front(), std::move(model).value(), settings.initial, std::move(own),
+      ground, std::move(collisions), joint_forces.value()));
 }
 
 }  // namespace rodeira::nodes

@@ -25,6 +25,7 @@ struct KindRow {
   std::vector<PortRow> inputs;
   std::string_view program;
   std::vector<std::string_view> side_topics;
+  std::vector<std::string_view> requested_outputs = {};
 };
 
 NodeKind KindOf(const KindRow& row) {
@@ -33,6 +34,7 @@ NodeKind KindOf(const KindRow& row) {
   kind.role = row.role;
   kind.default_period_s = row.default_period_s;
   kind.outputs.assign(row.outputs.begin(), row.outputs.end());
+  kind.requested_outputs.assign(row.requested_outputs.begin(), row.requested_outputs.end());
   for (const PortRow& port : row.inputs)
     kind.inputs.push_back({std::string(port.topic), port.kind, port.many, port.required});
   kind.program = row.program;
@@ -59,7 +61,8 @@ std::vector<NodeKind> MakeKinds() {
         {topics::kWeatherState, PortKind::kState, false, false},
         {topics::kScenarioEvents, PortKind::kEvent, true, false}},
        "rodeira-vehicle",
-       {topics::kGroundRequest, topics::kGroundReply, topics::kWorldInfo}},
+       {topics::kGroundRequest, topics::kGroundReply, topics::kWorldInfo},
+       {topics::kJointForces}},
       {"traffic",
        Role::kStepped,
        0.01,
@@ -111,6 +114,7 @@ std::vector<NodeKind> MakeKinds() {
        {{topics::kControls, PortKind::kEvent, true, false},
         {topics::kVehicleState, PortKind::kEvent, true, false},
         {topics::kCollisions, PortKind::kEvent, true, false},
+        {topics::kJointForces, PortKind::kEvent, true, false},
         {topics::kTrafficState, PortKind::kEvent, true, false},
         {topics::kSignalsState, PortKind::kEvent, true, false},
         {topics::kTrafficDetails, PortKind::kEvent, true, false},

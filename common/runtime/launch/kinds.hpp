@@ -25,6 +25,7 @@ struct NodeKind {
   lockstep::Role role = lockstep::Role::kStepped;
   double default_period_s = 0.0;
   std::vector<std::string> outputs;
+  std::vector<std::string> requested_outputs = {};  // published only where the launch file names them
   std::vector<KindPort> inputs;
   std::string program;                    // beside `rodeira`; of an external node: its absolute path
   std::string library;                    // of an external node: its shared object, absolute; may be empty

@@ -41,6 +41,29 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
   return static_cast<Step>(whole);
 }
 
+// Topics under `outputs`: those that a node of this kind publishes only where they are named.
+std::vector<std::string> ReadRequestedOutputs(const config::DeclaredMap& declared, const NodeKind& kind) {
+  std::vector<std::string> names;
+  for (const std::string& topic : kind.requested_outputs) names.push_back(ShortName(topic));
+  std::vector<std::string> topics;
+  const config::List outputs = declared.MapWith("outputs").OptionalItems("outputs");
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const std::string name = outputs.Text(i);
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) {
+      outputs.Problem(i, "launch.unknown_output",
+                      names.empty() ? fmt::format("'{}' was found; a node of kind '{}' publishes nothing on request",
+                                                  name, kind.name)
+                                    : fmt::format("'{}' was found; {} was expected{}", name, fmt::join(names, ", "),
+                                                  base::DidYouMean(name, names)));
+      continue;
+    }
+    const std::string& topic = kind.requested_outputs[static_cast<std::size_t>(found - names.begin())];
+    if (std::ranges::find(topics, topic) == topics.end()) topics.push_back(topic);
+  }
+  return topics;
+}
+
 NodeSpec ReadNode(const config::DeclaredMap& declared, const std::string& name, const NodeKind& kind,
                   std::int64_t base_step_ns) {
   const config::Map& map = declared.map();
@@ -56,6 +79,7 @@ NodeSpec ReadNode(const config::DeclaredMap& declared, const std::string& name, 
     spec.delay = ToSteps(map, "delay_s", delay_s, base_step_ns);
   }
   spec.outputs = kind.outputs;
+  for (const std::string& topic : ReadRequestedOutputs(declared, kind)) spec.outputs.push_back(topic);
   return spec;
 }
 

@@ -34,6 +34,13 @@ config::Key InputsKey() {
   return key;
 }
 
+config::Key OutputsKey() {
+  config::Key key =
+      config::ListKey("outputs", config::TextItem("joint_forces"), "Topics that the node publishes only on request.");
+  key.sample = "[]";
+  return key;
+}
+
 // From `low` on, without an upper bound.
 config::Key OpenInteger(config::Key key) {
   key.range.high = config::Range{}.high;
@@ -102,6 +109,7 @@ const std::vector<config::Key>& NodeKeys() {
                       config::OptionalWordKey("recovery", kPolicies, "What follows if this node is lost.")),
       ComputedTextKey("host", "the clock's", "a", "Host of a laboratory."),
       InputsKey(),
+      OutputsKey(),
       ComputedTextKey("program", "required for `external`", "", "Program of a node of kind `external`."),
       ComputedTextKey("manifest", "required for `external`", "", "Its manifest, NAME.yaml."),
       ComputedTextKey("library", "none", "", "Its shared object, for runs in one process.")};

@@ -17,6 +17,7 @@
 #include "collisions.h"
 #include "controls.h"
 #include "ground.h"
+#include "joint_forces.h"
 #include "measures.h"
 #include "operator_input.h"
 #include "pulse.h"
@@ -44,6 +45,7 @@ static struct Subject g_subjects[] = {
     {"rodeira/controls", &rodeira_msg_Controls_desc, 0, false},
     {"rodeira/vehicle_state", &rodeira_msg_VehicleState_desc, 0, false},
     {"rodeira/collisions", &rodeira_msg_Collisions_desc, 0, false},
+    {"rodeira/joint_forces", &rodeira_msg_JointForces_desc, 0, false},
     {"rodeira/traffic_state", &rodeira_msg_TrafficState_desc, 0, false},
     {"rodeira/traffic_details", &rodeira_msg_TrafficDetails_desc, 0, false},
     {"rodeira/signals_state", &rodeira_msg_SignalsState_desc, 0, false},

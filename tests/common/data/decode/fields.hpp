@@ -191,6 +191,19 @@ void Fields(V& v, msg::Collisions& m) {
   v("header", m.header()), v("contacts", m.contacts()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::JointForce& m) {
+  v("body", m.body()), v("point", m.point()), v("force_b_x_n", m.force_b_x_n()), v("force_b_y_n", m.force_b_y_n()),
+      v("force_b_z_n", m.force_b_z_n());
+}
+template <class V>
+void Fields(V& v, msg::SpringForce& m) {
+  v("element", m.element()), v("force_n", m.force_n()), v("damper_n", m.damper_n());
+}
+template <class V>
+void Fields(V& v, msg::JointForces& m) {
+  v("header", m.header()), v("joints", m.joints()), v("springs", m.springs()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::SignalGroup& m) {
   v("controller", m.controller()), v("colour", m.colour());
 }
@@ -375,6 +388,7 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::Controls>(), "rodeira::msg::Controls");
   use(TypeTag<msg::VehicleState>(), "rodeira::msg::VehicleState");
   use(TypeTag<msg::Collisions>(), "rodeira::msg::Collisions");
+  use(TypeTag<msg::JointForces>(), "rodeira::msg::JointForces");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::TrafficDetails>(), "rodeira::msg::TrafficDetails");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");

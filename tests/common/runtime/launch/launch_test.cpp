@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "common/runtime/launch/launch_schema.hpp"
 #include "tests/common/core/config/every_key.hpp"
 #include "tests/tree.hpp"
@@ -101,6 +104,30 @@ TEST(Launch, TransportIsAWordOrAMapping) {
   EXPECT_EQ(Refusal(kDrive, {{"transport", "upd"}}), "dir/drive.yaml: 'transport' is 'upd'; did you mean 'udp'?");
 }
 
+// A topic that is published on request has a source only where the launch file names it; the recorder then takes it.
+TEST(Launch, PublishesOnRequestWhatOutputsNames) {
+  const auto inputs_of_recorder = [](const Launch& launch) {
+    return launch.roster().node(launch.roster().Find("recorder")).inputs;
+  };
+  const auto takes_forces = [](const auto& port) { return port.topic == "rodeira/joint_forces"; };
+  const Launch without = Launch::Parse(kDrive, "dir/drive.yaml").value();
+  EXPECT_TRUE(std::ranges::none_of(inputs_of_recorder(without), takes_forces));
+  EXPECT_EQ(without.roster().node(without.roster().Find("ego")).outputs.size(), 2u);
+  const auto with = Launch::Parse(kDrive, "dir/drive.yaml", {{"nodes.ego.outputs", "[joint_forces, joint_forces]"}});
+  ASSERT_TRUE(with) << with.error().Text();
+  const auto& ego = with.value().roster().node(with.value().roster().Find("ego"));
+  ASSERT_EQ(ego.outputs.size(), 3u);
+  EXPECT_EQ(with.value().roster().SourceName(ego.outputs[2]), "ego.rodeira/joint_forces");
+  EXPECT_TRUE(std::ranges::any_of(inputs_of_recorder(with.value()), takes_forces));
+  const auto id_of = [](const char* key, const char* value) {
+    const auto launch = Launch::Parse(kDrive, "dir/drive.yaml", {{key, value}});
+    return std::string(launch.ok() ? std::string_view() : launch.error().id.text());
+  };
+  EXPECT_EQ(id_of("nodes.ego.outputs", "[joint_force]"), "launch.unknown_output");
+  EXPECT_EQ(id_of("nodes.traffic.outputs", "[joint_forces]"), "launch.unknown_output");
+  EXPECT_NE(Refusal(kDrive, {{"nodes.ego.outputs", "[joint_force]"}}).find("joint_forces"), std::string::npos);
+}
+
 TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   const std::string text = kDrive;
   EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"),
@@ -155,6 +182,7 @@ TEST(Launch, EveryDeclaredKeyKeepsItsTypeAndBounds) {
        {"nodes.NAME.kind=measures", nodes("{a: {kind: measures}, b: {kind: vehicle}, c: {kind: input}}")},
        {"nodes.NAME.kind=external",
         nodes("{a: {kind: external, program: eye, manifest: eye.yaml}, b: {kind: vehicle}, c: {kind: input}}")},
+       {"nodes.NAME.outputs[]=joint_forces", nodes("{a: {kind: vehicle, outputs: [joint_forces]}, b: {kind: input}}")},
        {"nodes.NAME.program", external},
        {"nodes.NAME.manifest", {{"nodes.NAME.kind", "external"}, {"nodes.NAME.program", "eye"}}},
        {"nodes.NAME.library",
