@@ -63,7 +63,7 @@ base::Result<Edit> SetFlow(Document& document, std::int32_t lane, double vehph) 
   if (!place) return NoLane(fmt::format("{}", lane));
   if (document.map.lanes[*place].value.mode != traffic_map::LaneMode::kStart)
     return base::WrongInput("edit.not_a_start_lane",
-                            fmt::format("lane {} is no start lane: nobody begins there", lane));
+                            fmt::format("lane {} is no start lane: no vehicle begins there", lane));
   if (!(vehph >= 0.0 && vehph <= 10'000.0))
     return base::WrongInput("edit.out_of_range",
                             fmt::format("the flow is {} vehicles an hour; 0 to 10000 was expected", vehph));

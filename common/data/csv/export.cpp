@@ -208,7 +208,7 @@ class Exporter {
       const bool keeps = thinning == thinned.end() || thinning->second.Keeps(message.value()->log_time_ns);
       if (auto status = keeps ? Put(*message.value()) : base::Status(); !status) return status;
       if (count % kMessagesBetweenProgress != 0 || GoesOn(count)) continue;
-      return base::Failed("run.interrupted", "the export was broken off; nothing is left of it");
+      return base::Failed("run.interrupted", "export cancelled; partial output removed");
     }
   }
   bool GoesOn(std::uint64_t messages) const {

@@ -80,7 +80,7 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
   }
   if (whom == "next" && !choice.at)
     return base::WrongInput("scenario.wrong_text",
-                            "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+                            "'next' needs a place; the next agent that comes there is taken, as in 'next at main 350'");
   if (whom == "all" || whom == "ahead" || whom == "next") {
     choice.kind = whom == "all"     ? AgentChoice::Kind::kAll
                   : whom == "ahead" ? AgentChoice::Kind::kAhead

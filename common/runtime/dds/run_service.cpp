@@ -23,8 +23,8 @@ namespace topics = idl::topics;
 class ServiceContext final : public launch::NodeContext {
  public:
   using NodeContext::NodeContext;
-  ground::Ground& Ground() override { RODEIRA_ASSERT(false && "a server asks nobody"); }
-  base::Result<launch::WorldSummary> World() override { RODEIRA_ASSERT(false && "a server asks nobody"); }
+  ground::Ground& Ground() override { RODEIRA_ASSERT(false && "a server has no ground server"); }
+  base::Result<launch::WorldSummary> World() override { RODEIRA_ASSERT(false && "a server has no ground server"); }
 };
 
 }  // namespace

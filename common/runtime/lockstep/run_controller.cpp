@@ -101,7 +101,7 @@ base::Result<std::string> RunController::Do(const Command& command, const Wall& 
     std::string missing;
     for (const std::string& name : clock_.Missing(Phase::kReady)) missing += (missing.empty() ? "" : ", ") + name;
     return base::Failed("run.not_running",
-                        "the run has not begun; it waits for " + (missing.empty() ? "nobody" : missing));
+                        "the run has not begun; it waits for " + (missing.empty() ? "no node" : missing));
   }
   if (clock_.grant().final) {
     if (command.kind == Kind::kState) return "is ending at " + Here();

@@ -112,7 +112,7 @@ base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::Te
   }
   if (!has_launch)
     return base::WrongInput("recording.file_missing",
-                            "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+                            "the embedded file 'launch.yaml' is missing; it names the nodes of the run");
   return files;
 }
 

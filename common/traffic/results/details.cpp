@@ -104,7 +104,7 @@ std::vector<AgentDetail> DetailReport::Details() {
                            : DriveOn(car, agent.driving, agent.speed_mps, agent.acceleration_mps2, agent.grade, 0.0);
       detail.fuel_mgps = in_.full ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);
       detail.fuel_used_mg = agent.fuel_mg;
-    } else {  // struck: its engine stands, its wheels are locked
+    } else {  // crashed: its engine stands, its wheels are locked
       detail.target_W = detail.look_ahead_W = pose.p_WB_W.head<2>();
       const Eigen::Vector3d ahead_W = pose.q_WB * Eigen::Vector3d::UnitX();
       detail.path_heading_rad = std::atan2(ahead_W.y(), ahead_W.x());

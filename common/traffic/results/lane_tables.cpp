@@ -153,7 +153,8 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
     base::AppendFormat(svg, "<rect x='{}' y='26' width='6' height='8' fill='{}'/>", kRim_px + 6.0 * shade,
                        ShadeOf(shade));
   }
-  base::AppendFormat(svg, "<text x='{}' y='34'>mean speed, from standing to the limit; grey: nobody</text>\n</svg>\n",
+  base::AppendFormat(svg,
+                     "<text x='{}' y='34'>mean speed, from standing to the limit; grey: no vehicle</text>\n</svg>\n",
                      kRim_px + 6.0 * kSpeedShades + 8.0);
   return svg;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is on the road: bodies and drivers, drawn by lot.
+// Bodies and drivers of the agents, drawn at random.
 #include <algorithm>
 #include <array>
 #include <span>

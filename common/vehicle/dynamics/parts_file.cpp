@@ -128,8 +128,7 @@ DrivenWheels ReadDriven(const Map& root) {
     if (driven != "all" && root.Has(key))
       root.Problem(
           key, "vehicle.not_all_driven",
-          fmt::format("'{}' is of a car with 'driven_axle: all'; here it is '{}', whose differential is the key "
-                      "'differential'",
+          fmt::format("'{}' belongs to 'driven_axle: all'; here 'driven_axle' is '{}' and the key is 'differential'",
                       key, driven));
   return driven == "all" ? DrivenWheels::kAll : driven == "rear" ? DrivenWheels::kRear : DrivenWheels::kFront;
 }

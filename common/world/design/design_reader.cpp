@@ -206,7 +206,7 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
   }
   if (!network::IsDrivable(found->type)) {
     map.Problem(wish.lane ? "lane" : "",
-                fmt::format("lane {} of road '{}' is one of the type '{}': nobody drives there{}", lane, spec.id,
+                fmt::format("lane {} of road '{}' is one of the type '{}': no vehicle drives there{}", lane, spec.id,
                             network::LaneTypeName(found->type), DrivenLanes(spec)));
     return std::nullopt;
   }

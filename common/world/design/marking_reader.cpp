@@ -95,7 +95,7 @@ void ReadStopLine(const DeclaredMap& item, double s_m, double road_m, network::R
   const int direction = item.Word("for") == "along" ? 1 : -1;
   const bool of_lane = item.map().Has("lane");
   if (item.map().Has("for") && of_lane)
-    item.map().Problem("for", "config.conflicting_keys", "a stop line has either a 'lane' or 'for' whom it is");
+    item.map().Problem("for", "config.conflicting_keys", "a stop line has either 'lane' or 'for'");
   for (const network::Lane* lane : MarkedLanes(item, spec)) {
     if (!of_lane && lane->direction == -direction) continue;
     Edges edges = LaneEdges(spec, *lane, s_m);

@@ -119,8 +119,7 @@ class GdalPicture final : public PictureReader {
                                 fmt::format("the picture cannot be read beyond line {} of {}", first, height));
       if (table != nullptr && !coloured)
         PaintByTable(*table, into, static_cast<std::size_t>(rows) * static_cast<std::size_t>(width));
-      if (!ready(first + rows))
-        return base::Failed("run.interrupted", "the picture was not read to its end: somebody stopped that");
+      if (!ready(first + rows)) return base::Failed("run.interrupted", "reading the picture was cancelled");
     }
     return {};
   }

@@ -112,7 +112,7 @@ struct LaneChecker {
                                                 network.roads()[*road].spec().sections.end(), has);
       findings.warnings.push_back(
           At(key, End::kStart, "rodeira.beside",
-             fmt::format("beside it on the {} is said to be lane {} of road {}, which {}: nobody changes over",
+             fmt::format("beside it on the {} is said to be lane {} of road {}, which {}: no vehicle changes to it",
                          left ? "left" : "right", name->lane, name->road,
                          is_there ? "does not say so" : "is not in the file")));
     }

@@ -272,10 +272,10 @@ void LayJunctionThings(std::span<const JunctionReading> junctions, const std::se
       };
       if (find(path.road) == spec.roads.size())
         wrong("junctions.cross_path.road",
-              fmt::format("is the road '{}', which is not in the file: nobody walks there", path.road));
+              fmt::format("is the road '{}', which is not in the file: no pedestrian walks there", path.road));
       else if (!on_foot.contains(path.road))
         wrong("junctions.cross_path.only_connect_correct_type",
-              fmt::format("is the road '{}', whose lanes are not walked on: nobody walks there", path.road));
+              fmt::format("is the road '{}', which has no lane for pedestrians: none walks there", path.road));
       else
         LayPath(junction, path, find(path.road), spec);
     }

@@ -62,7 +62,7 @@ std::vector<base::Error> VisualProblems(const fs::path& folder, const std::strin
   if (contents.content_hash != content_hash) {
     problems.push_back(base::WrongInput(
         "world.built_file_changed",
-        fmt::format("it was written from a world whose content hash is '{}'; that of this folder's is '{}'",
+        fmt::format("it was written from a world with the content hash '{}'; this folder's world has '{}'",
                     contents.content_hash, content_hash),
         manifest.string()));
   }

@@ -111,7 +111,7 @@ base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem:
   if (!file) return file.error();
   if (!IsGenerated(world_yaml)) {
     return base::WrongInput("world.nothing_to_build",
-                            "there is nothing to build: a world whose 'terrain' says 'generate' was expected",
+                            "there is nothing to build: a world with 'generate' under 'terrain' was expected",
                             world_yaml.string());
   }
   std::error_code problem;

@@ -79,7 +79,7 @@ void WarnOfLights(const LightsWritten& lights, const std::string& file, std::vec
   const auto warn = [&](const std::set<std::string>& of, const char* sentence) {
     if (!of.empty()) warnings.push_back(fmt::format("{}: {}: {}", file, sentence, Listed(of)));
   };
-  warn(lights.actuated, "lights whose greens SUMO stretches by traffic have the lengths that the file says");
+  warn(lights.actuated, "green phases that SUMO extends by traffic have the lengths that the file says");
   warn(lights.held, "lights that are green and yield to a green from another side are red there");
   warn(lights.dark, "lights without a program that can be followed are dark; signs and priorities hold");
 }

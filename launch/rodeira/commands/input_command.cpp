@@ -36,8 +36,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
       say(fmt::format("{}. {}", wizard.number(), said_prompt));
     }
     if (!wait())
-      return base::PrintError("rodeira",
-                              base::Failed("run.interrupted", "the setup was broken off; nothing was written"));
+      return base::PrintError("rodeira", base::Failed("run.interrupted", "setup cancelled; nothing was written"));
     if (const auto went = wizard.Step(kTick_s); !went) return base::PrintError("rodeira", went.error());
   }
   const auto file = wizard.Write(options.out, options.lock_deg);

@@ -38,7 +38,7 @@ void AddPolyline(CLI::App& app, ChosenCommand& chosen) {
       ->check(From0())
       ->capture_default_str();
   join->add_flag("--bridge", options->bridge, "bridge larger gaps by a straight piece");
-  join->add_flag("--turn", options->turn, "turn a line round whose end is nearer than its beginning");
+  join->add_flag("--turn", options->turn, "reverse a line if its end is nearer than its beginning");
   CLI::App* translate = add("translate", "shift", "IN.csv");
   translate->add_option("--by", options->by_m, "metres east, north and, if wanted, up")
       ->required()

@@ -232,8 +232,8 @@ int WorldOf(const WorldOptions& options) {
     const std::string profile = road::PlotProfiles(*world.value());
     if (profile.empty())
       return base::PrintError(
-          "rodeira",
-          base::WrongInput("world.no_road", "the world has no road whose profile could be drawn", options.world_file));
+          "rodeira", base::WrongInput("world.no_road", "the world has no road; a road with a profile was expected",
+                                      options.world_file));
     if (auto status = base::WriteWhole(options.profile, profile); !status)
       return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", options.profile);
@@ -257,8 +257,8 @@ int WorldOf(const WorldOptions& options) {
     const std::string svg = drawn(*world.value());
     if (svg.empty())
       return base::PrintError(
-          "rodeira",
-          base::WrongInput("world.no_road", "the world has no road whose profile could be drawn", options.world_file));
+          "rodeira", base::WrongInput("world.no_road", "the world has no road; a road with a profile was expected",
+                                      options.world_file));
     if (auto status = base::WriteWhole(file, svg); !status) return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", file);
   }

@@ -57,7 +57,7 @@ void WheelPanel::Draw() {
   ImGui::SetNextItemWidth(140.0F);
   ImGui::InputInt("degrees that the wheel turns from end to end", &range_deg_, 90, 180);
   ImGui::Spacing();
-  if (ImGui::Button("cancel", {140.0F, 32.0F})) Close("the setup was broken off; nothing was written");
+  if (ImGui::Button("cancel", {140.0F, 32.0F})) Close("setup cancelled; nothing was written");
 }
 
 void WheelPanel::DrawDevices() const {

@@ -32,7 +32,7 @@ double HeadingOf(const scene::CarPose& car) {
 base::Result<const scene::CarPose*> CarOf(const scene::SceneSnapshot& moment, std::size_t followed,
                                           const CarNames& names) {
   if (moment.cars.empty())
-    return base::WrongInput("view.cannot_place", "nobody drives here: there is no car to be placed");
+    return base::WrongInput("view.cannot_place", "there is no car to place: no node of this run drives one");
   const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
   if (!names.contains(car.id))
     return base::WrongInput("replay.cannot_change", "a recording cannot be changed: the car stays where it was");

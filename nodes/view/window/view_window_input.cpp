@@ -20,8 +20,8 @@ constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
 constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
 constexpr double kWeather_s = 8.0;   // until another weather is there
 constexpr double kVolumeStep = 0.1;  // a press
-constexpr const char* kNobodyTakes =
-    "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
+constexpr const char* kNoneTakes =
+    "no node of this run takes requests: a node of kind scenario with 'requests: true' does";
 constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
 constexpr const char* kTooMany = "the run has not taken what was asked before";
 
@@ -148,7 +148,7 @@ scene::Ray ViewWindow::RayAt(int x_px, int y_px) const {
 void ViewWindow::AskForPlace(int x_px, int y_px) {
   const auto request = AskPlace(world_, live_.moment, live_.followed, RayAt(x_px, y_px), cars_);
   if (!request) return Note(request.error().message);
-  if (!ask_) return Note(kNobodyTakes);
+  if (!ask_) return Note(kNoneTakes);
   const scenario::Request& place = request.value();
   if (ask_(place))
     Note(fmt::format("{} to {:.1f}, {:.1f}",
@@ -162,7 +162,7 @@ void ViewWindow::AskForPlace(int x_px, int y_px) {
 void ViewWindow::AskForStart() {
   const auto request = AskStart(world_, live_.moment, live_.followed, cars_, starts_);
   if (!request) return Note(request.error().message);
-  if (!ask_) return Note(kNobodyTakes);
+  if (!ask_) return Note(kNoneTakes);
   Note(ask_(request.value()) ? fmt::format("{} back to its start", request.value().argument) : kTooMany);
 }
 
@@ -175,7 +175,7 @@ void ViewWindow::SetVolume(double volume) {
 
 // Within some seconds.
 void ViewWindow::AskForWeather(std::size_t which) {
-  if (!ask_) return Note(kNobodyTakes);
+  if (!ask_) return Note(kNoneTakes);
   const auto all = weather::NamedWeathers();
   weather_ = which;
   if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s)))

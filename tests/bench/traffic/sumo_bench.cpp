@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a step costs SUMO on the same streets: netconvert reads the OpenDRIVE that is written of the same map, and
-// `sumo` drives as many vehicles over it, from places and by turns drawn by lot, in steps of the same 10 ms. Where SUMO
-// is not installed the benchmark says so.
+// `sumo` drives as many vehicles over it, from random places and by random turns, in steps of the same 10 ms. Where
+// SUMO is not installed the benchmark says so.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -49,7 +49,7 @@ std::map<std::string, std::vector<std::string>> Streets(const std::string& net) 
   return next;
 }
 
-// Each vehicle begins on a street drawn by lot and turns by lot.
+// Each vehicle begins on a random street and turns at random.
 void WriteRoutes(const std::map<std::string, std::vector<std::string>>& next, std::int64_t vehicles,
                  const std::string& file) {
   std::vector<std::string> streets;

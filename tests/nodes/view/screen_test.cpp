@@ -177,7 +177,8 @@ TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
   EXPECT_EQ(at_the_edge.error().message, "there is no ground of this world: the car stays where it is");
   const auto sky = AskPlace(*world, moment, 0, {{0.0, 0.0, 900.0}, Eigen::Vector3d::UnitZ()}, {{0, "ego"}});
   EXPECT_FALSE(sky.ok());
-  EXPECT_EQ(AskPlace(*world, {}, 0, down, {}).error().message, "nobody drives here: there is no car to be placed");
+  EXPECT_EQ(AskPlace(*world, {}, 0, down, {}).error().message,
+            "there is no car to place: no node of this run drives one");
 }
 
 // It is said again until the run has said it.

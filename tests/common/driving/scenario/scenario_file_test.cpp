@@ -55,9 +55,8 @@ TEST(ScenarioFile, AnAgentMayBeToldAtAPlace) {
   ASSERT_TRUE(read.ok()) << read.error().Text();
   EXPECT_EQ(read.value().scheduled.at(0).event.argument, "next at main 350.5");
   EXPECT_EQ(read.value().conditional.at(0).event.argument, "all at side road 4");
-  EXPECT_NE(
-      Complaint("  - {at_s: 1, name: traffic.release, agent: next}\n").find("'next' is whoever comes to a place first"),
-      std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: next}\n").find("'next' needs a place"),
+            std::string::npos);
   EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {s_m: 3}}\n").find("road' is missing"),
             std::string::npos);
   EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {road: main, s_m: -3}}\n").find("s_m' is -3"),

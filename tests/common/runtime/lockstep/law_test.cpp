@@ -166,7 +166,7 @@ TEST(Law, AFailingNodeStopsTheRunAndIsNamed) {
   EXPECT_EQ(sink.seen().size(), 41u);
 }
 
-// A sink (a recorder on a busy machine) that is still busy with a step when the run is broken off.
+// A sink (a recorder on a busy machine) that is still busy with a step when the run is cancelled.
 class BusySink final : public Node {
  public:
   explicit BusySink(law::Rememberer& sink) : sink_(sink) {}

@@ -152,7 +152,7 @@ Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
   return flaws;
 }
 
-// The same for the project's worlds at every level, on tiles drawn by lot and on all at bridges: there is no open side,
+// The same for the project's worlds at every level, on random tiles and on all at bridges: there is no open side,
 // also not where a deck begins: the ground below it stops at an abutment, up to the deck's underside, and aprons at its
 // sides meet the underside.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {

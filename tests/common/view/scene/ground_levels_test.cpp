@@ -81,7 +81,7 @@ TEST(GroundLevels, OfSmallRadiiKeepWhatIsAsked) {
   ExpectLevels("hairpin", *parsed.value(), BuildAll(*parsed.value()));
 }
 
-// The project's worlds, on tiles drawn by lot from those through which a road runs.
+// The project's worlds, on random tiles of those through which a road runs.
 TEST(GroundLevels, OfTheProjectsWorldsKeepWhatIsAsked) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 10) / 5;
   for (const std::string name : {"haste", "n222", "ring", "lights"}) {

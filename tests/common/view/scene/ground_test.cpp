@@ -138,8 +138,8 @@ TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
               found.worst_m);
 }
 
-// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles
-// drawn by lot. Made roughness and the short waves of measured surfaces are not drawn: there SUELO is asked without
+// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on random
+// tiles. Made roughness and the short waves of measured surfaces are not drawn: there SUELO is asked without
 // them.
 TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20);

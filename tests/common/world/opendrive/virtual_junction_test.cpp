@@ -240,7 +240,7 @@ TEST(CrossPath, APathThatIsNotWalkedOnStaysARoadAndIsSaid) {
   EXPECT_EQ(import.network->roads().size(), 2u);
   EXPECT_THAT(Said(import),
               testing::ElementsAre("junctions.cross_path.only_connect_correct_type: the cross path '7' of junction 555 "
-                                   "is the road '2', whose lanes are not walked on: nobody walks there"));
+                                   "is the road '2', which has no lane for pedestrians: none walks there"));
 }
 
 // A junction's objects lie beside its own line: (x, y) = (60, -10) + rotation of (s, t) by 90°.

@@ -361,7 +361,7 @@ TEST(BuiltWorld, IncludedFilesAreReadAndTheirMistakesToldWithTheirPlaces) {
 
 class JunctionsOfTheProject : public testing::TestWithParam<const char*> {};
 
-// Over every junction, its mouths and what lies around it, on straight walks drawn by lot.
+// Over every junction, its mouths and what lies around it, on random straight walks.
 TEST_P(JunctionsOfTheProject, HaveNoSteps) {
   const auto loaded = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / GetParam());
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();

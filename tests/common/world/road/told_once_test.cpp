@@ -169,10 +169,8 @@ TEST_F(ToldOnce, ALaneWithoutTrafficIsNoStart) {
     return OnAPlane("line: {length_m: 200}", "start: {road: main, lane: " + std::to_string(lane) + ", s_m: 20}\n");
   };
   EXPECT_THAT(Problems(at(-1)), IsEmpty());
-  EXPECT_THAT(
-      Problems(at(-2)),
-      ElementsAre(
-          "w.yaml:10: lane -2 of road 'main' is one of the type 'shoulder': nobody drives there; driven on are -1, 1"));
+  EXPECT_THAT(Problems(at(-2)), ElementsAre("w.yaml:10: lane -2 of road 'main' is one of the type 'shoulder': no "
+                                            "vehicle drives there; driven on are -1, 1"));
   EXPECT_THAT(Problems(at(9)), ElementsAre("w.yaml:10: road 'main' has no lane 9"));
 }
 

@@ -299,7 +299,7 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   ASSERT_TRUE(base::WriteWhole(manifest, list).ok());
   EXPECT_THAT(
       AskedOfWorld("check", out).errors,
-      testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world whose content hash is '"));
+      testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world with the content hash '"));
 }
 
 // On a plane too the world file comes along: bumps and patches stand nowhere else.

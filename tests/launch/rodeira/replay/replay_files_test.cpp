@@ -37,8 +37,7 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
     EXPECT_THAT(verdict.error().Text(), ::testing::Not(HasSubstr("rodeira-replay"))) << name;
     return verdict.error().Text().substr(copy.size() + 2);
   };
-  EXPECT_EQ(without("launch.yaml"),
-            "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+  EXPECT_EQ(without("launch.yaml"), "the embedded file 'launch.yaml' is missing; it names the nodes of the run");
   EXPECT_THAT(without("files/../configs/vehicles/default.yaml"),
               HasSubstr("../configs/vehicles/default.yaml: there is no such file"));
   EXPECT_THAT(without("files/../configs/worlds/plane.yaml"),

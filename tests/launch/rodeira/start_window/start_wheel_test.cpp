@@ -99,7 +99,7 @@ TEST_F(StartWheel, CancelledOrWithoutOneItSaysSoAndWritesNothing) {
   EXPECT_EQ(start_->wheel().said(), "") << "what was said before is no more";
   ASSERT_TRUE(Click("cancel"));
   EXPECT_FALSE(start_->wheel().open());
-  EXPECT_EQ(start_->wheel().said(), "the setup was broken off; nothing was written");
+  EXPECT_EQ(start_->wheel().said(), "setup cancelled; nothing was written");
   ASSERT_TRUE(Click("set up a steering wheel"));
   wheel.Detach();
   Frame();
