@@ -9,6 +9,7 @@
 #include "common/world/opendrive/file_text.hpp"
 #include "common/world/opendrive/read.hpp"
 #include "common/world/opendrive/repair.hpp"
+#include "common/world/opendrive/rule_ids.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -193,7 +194,8 @@ base::Result<std::string> LoadText(const std::filesystem::path& path) {
 }
 
 base::Error ToError(const Finding& finding, const std::filesystem::path& path) {
-  return base::WrongInput("opendrive.rule_broken", finding.Text(),
+  const base::ErrorId id = IdOfRule(finding.rule);
+  return base::WrongInput(id, finding.Text(),
                           finding.line == 0 ? path.string() : fmt::format("{}:{}", path.string(), finding.line));
 }
 

@@ -105,6 +105,21 @@ TEST(JsonErrors, AreOneForEachFinding) {
                           "map.no_lane | " + map + ":13 | connection 1 to 8: lane 8 does not exist | 2"));
 }
 
+TEST(JsonErrors, OfAnOpenDriveFileHaveTheIdsOfTheirRules) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write(
+      "a.xodr",
+      "<OpenDRIVE>\n<header revMajor='1' revMinor='7'/>\n<road id='1' length='60' junction='-1'><planView>\n"
+      "<geometry s='0' x='0' y='0' hdg='0' length='40'><line/></geometry>\n"
+      "<geometry s='40' x='40.5' y='0' hdg='0' length='20'><line/></geometry></planView>\n"
+      "<lanes><laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
+      "<width sOffset='0' a='3' b='0' c='0' d='0'/></lane></right></laneSection></lanes></road>\n</OpenDRIVE>\n");
+  EXPECT_THAT(ErrorsOf({"world", "check", file, "--strict", "--json"}),
+              ElementsAre("2", AllOf(StartsWith("opendrive.road_geometry_contact_point | " + file +
+                                                ":5 | road.geometry.contact_point: road 1, s 40: "),
+                                     HasSubstr(" 0.5 m "))));
+}
+
 TEST(JsonErrors, OfAWarningHaveStatusZero) {
   const TemporaryFolder folder;
   const std::string map = folder.Write("a.motors", traffic_map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n");

@@ -23,7 +23,10 @@ std::vector<std::string> Errors(const std::string& text, const Tolerance& tolera
   const auto import = Read(text, "f.xodr", tolerance);
   if (!import) return {import.error().Text()};
   std::vector<std::string> errors;
-  for (const Finding& error : import.value().errors) errors.push_back(ToError(error, "f.xodr").Text());
+  for (const Finding& error : import.value().errors) {
+    errors.push_back(ToError(error, "f.xodr").Text());
+    EXPECT_NE(ToError(error, "f.xodr").id.text(), "opendrive.rule_broken") << error.rule << " has no id of its own";
+  }
   EXPECT_EQ(import.value().network == nullptr, !errors.empty());
   return errors;
 }
@@ -64,6 +67,27 @@ TEST(OpenDrive, EveryInvalidFileIsRefusedByItsRule) {
     ASSERT_TRUE(known != expected.end()) << file << " is not in this test's table; it says\n" << all;
     for (const std::string& sentence : known->second) EXPECT_THAT(all, HasSubstr(sentence));
   }
+}
+
+TEST(OpenDrive, AnErrorHasTheIdOfItsRule) {
+  const auto id = [](const std::string& rule) {
+    Finding finding;
+    finding.rule = rule;
+    return std::string(ToError(finding, "f.xodr").id.text());
+  };
+  EXPECT_EQ(id("core.once"), "opendrive.core_once");
+  EXPECT_EQ(id("road.lane.roadMark"), "opendrive.road_lane_roadmark");
+  EXPECT_EQ(id("road.object.borders.useCompleteOutline_true"), "opendrive.road_object_borders_usecompleteoutline_true");
+  EXPECT_EQ(id("road.geometry.elem_asc_order"), "opendrive.road_geometry_elem_asc_order");
+  // Parts that are names of elements and attributes are left out.
+  EXPECT_EQ(id("road.lane.width.first"), "opendrive.road_lane_first");
+  EXPECT_EQ(id("road.lanes.first"), "opendrive.road_first");
+  EXPECT_EQ(id("ids.id_unique_in_class"), "opendrive.ids_id_unique_in_class");
+  EXPECT_EQ(id("ids.id_unique_in_class.signal"), "opendrive.ids_id_unique_in_class");
+  // Such a part has no dot and is not empty.
+  EXPECT_EQ(id("road.lane.width.more.first"), "opendrive.rule_broken");
+  EXPECT_EQ(id("road..first"), "opendrive.rule_broken");
+  EXPECT_EQ(id("no.such.rule"), "opendrive.rule_broken");
 }
 
 // The page is written from the sources; the rules here are those that real files break.
