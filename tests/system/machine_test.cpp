@@ -15,6 +15,7 @@
 #include "launch/rodeira/run/domains.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {
@@ -61,7 +62,8 @@ std::string NameFor(std::uint32_t domain, const std::string& begin) {
 
 // --- many runs beside one another ---
 
-TEST(BesideOneAnother, TenRunsInProcessAndFourWithProcessesAreControlledByName) {
+// In the long form ten runs in a process and four with processes.
+TEST(BesideOneAnother, RunsInProcessAndWithProcessesAreControlledByName) {
   const cli::TemporaryFolder folder;
   const std::string runtime = "XDG_RUNTIME_DIR=" + folder.path().string();
   const auto ctl = [&](const std::string& name, const std::string& word) {
@@ -69,8 +71,9 @@ TEST(BesideOneAnother, TenRunsInProcessAndFourWithProcessesAreControlledByName) 
   };
   std::vector<std::string> names;
   std::vector<std::unique_ptr<Started>> runs;
-  for (int i = 0; i < 14; ++i) {
-    const bool in_process = i < 10;
+  const int in_a_process = BriefOrLong(4, 10), with_processes = BriefOrLong(3, 4);
+  for (int i = 0; i < in_a_process + with_processes; ++i) {
+    const bool in_process = i < in_a_process;
     // All with processes prefer one domain.
     names.push_back(in_process ? fmt::format("beside-{}", i) : NameFor(131, fmt::format("beside-{}", i)));
     Words command = Joined({runtime}, RunOf(names.back(), {"--for", "1000", "--pace", "0.02"}));
@@ -83,12 +86,13 @@ TEST(BesideOneAnother, TenRunsInProcessAndFourWithProcessesAreControlledByName) 
     for (int tries = 0; tries < 600 && !has_begun; ++tries, ::usleep(50'000))
       has_begun = ctl(names[i], "state").status == 0;
     ASSERT_TRUE(has_begun) << names[i];
-    if (i < 10) continue;
+    if (i < static_cast<std::size_t>(in_a_process)) continue;
     const auto clocks = ProcessesWith("--run " + names[i], "/rodeira-clock");
     ASSERT_EQ(clocks.size(), 1u) << names[i];
     domains.insert(OptionOf(clocks.front(), "--domain"));
   }
-  EXPECT_EQ(domains.size(), 4u) << "two runs have one domain: " << ::testing::PrintToString(domains);
+  EXPECT_EQ(domains.size(), static_cast<std::size_t>(with_processes))
+      << "two runs have one domain: " << ::testing::PrintToString(domains);
   for (std::size_t i = 0; i < names.size(); ++i) {
     EXPECT_EQ(ctl(names[i], "pause").status, 0) << names[i];
     if (i + 1 < names.size()) {

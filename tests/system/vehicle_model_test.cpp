@@ -13,6 +13,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/hash.hpp"
 #include "tests/common/vehicle/fmi/test_fmu.hpp"
+#include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {
@@ -152,8 +153,11 @@ TEST_F(FmuRun, TheDemoDrivesWithEachModel) {
       pictures.insert(base::Hash(base::ReadBytes(picture.path()).value()));
     }
     EXPECT_EQ(pictures.size(), 2u) << "the car has moved";
-    const Ended verified = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});
-    EXPECT_EQ(verified.status, 0) << verified.out;
+    // Those of a word: cli.ReplayTest.TheDemoMayBeDrivenByAnyModel.
+    if (IsLongForm() || &settings == &cars.back()) {
+      const Ended verified = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});
+      EXPECT_EQ(verified.status, 0) << verified.out;
+    }
     std::filesystem::remove_all(frames);
     std::filesystem::remove(recording);
   }

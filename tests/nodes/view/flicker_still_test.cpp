@@ -36,8 +36,7 @@ TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
   const Version1Road& road = N222Road();
   int asked = 0, worst_s = 0;
   double least = 1e9;
-  for (const double begin_m :
-       BriefOrLong<std::vector<double>>({27.0, 3277.0}, {27.0, 1677.0, 3277.0})) {  // between posts
+  for (const double begin_m : BriefOrLong<std::vector<double>>({27.0}, {27.0, 1677.0, 3277.0})) {  // between posts
     for (int k = 0; k < BriefOrLong(6, 12); ++k) {
       Car() = CarOn(road, begin_m + 0.07 * k, -1.45);
       const scene::Camera camera = scene::DriverCamera(Car());
@@ -59,7 +58,7 @@ TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
       }
     }
   }
-  EXPECT_GT(asked, BriefOrLong(150, 300));
+  EXPECT_GT(asked, BriefOrLong(75, 300));
   EXPECT_GT(least, 25.0) << "at station " << worst_s;
 }
 

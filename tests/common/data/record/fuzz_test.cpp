@@ -57,7 +57,7 @@ TEST(Fuzz, MutatedFilesNeitherCrashNorLie) {
   const std::set<Copied> known(messages.begin(), messages.end());
   std::size_t opened = 0;
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 10'000);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 5000);
   property::SayWhereItDies();
   for (std::size_t file = first; file < first + count; ++file) {
     property::NowTrying("file", file);
@@ -87,7 +87,7 @@ TEST(Fuzz, MutatedFilesNeitherCrashNorLie) {
 
 TEST(Fuzz, MutatedFilesOfOtherProgramsNeitherCrashNorLie) {
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 10'000);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 5000);
   std::size_t opened = 0;
   property::SayWhereItDies();
   for (std::size_t file = first; file < first + count; ++file) {

@@ -135,7 +135,9 @@ TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   const auto run = RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"),
                                "--in-process", "--for", until, "--record", Path("demo.mcap"), "--set",
                                "nodes.view.config.frames.folder=" + Path("live"), "--set",
-                               "nodes.view.config.frames.times_s=" + times});
+                               "nodes.view.config.frames.times_s=" + times, "--set",
+                               "nodes.view.config.width_px=" + BriefOrLong<std::string>("480", "960"), "--set",
+                               "nodes.view.config.height_px=" + BriefOrLong<std::string>("270", "540")});
   ASSERT_EQ(run.status, 0) << run.out;
   std::vector<std::string> wanted{Path("demo.mcap"), "--frames", Path("again"), "--at", "8", "5", "6.013", "6"};
   std::vector<Step> steps{5'000, 6'000, 6'013, 8'000};
