@@ -18,6 +18,7 @@ namespace {
 // The foreign code that the thread runs; null: none.
 thread_local const char* t_function = nullptr;
 thread_local const char* t_owner = nullptr;
+thread_local const char* t_node = nullptr;  // that it works for; null: the process has one
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
@@ -40,6 +41,11 @@ void WritePlace() {
 
 // Only functions that are safe in a signal handler.
 void OnCrash(int number) {
+  if (t_node != nullptr) {
+    WriteText("rodeira: crash: node '");
+    WriteText(t_node);
+    WriteText("'\n");
+  }
   const char* name = ::sigabbrev_np(number);
   WriteText("rodeira: crash: SIG");
   WriteText(name == nullptr ? "?" : name);
@@ -111,6 +117,9 @@ void TraceCrashes([[maybe_unused]] const char* advice) {
   for (const int number : kCrashSignals) ::sigaction(number, &action, nullptr);
 #endif
 }
+
+NodeCall::NodeCall(const char* node) noexcept : outer_node_(t_node) { t_node = node; }
+NodeCall::~NodeCall() { t_node = outer_node_; }
 
 ForeignCall::ForeignCall(const char* function, const char* owner) noexcept
     : outer_function_(t_function), outer_owner_(t_owner) {

@@ -9,6 +9,19 @@ namespace rodeira::base {
 // other threads start. Without effect under sanitizers, which have their own.
 void TraceCrashes(const char* advice = "");
 
+// While it lives, this thread works for one of the nodes that share the process; null: for none. After TraceCrashes a
+// crash says so in a line of its own: "rodeira: crash: node 'ego'". The name outlives the object.
+class NodeCall {
+ public:
+  explicit NodeCall(const char* node) noexcept;
+  ~NodeCall();
+  NodeCall(const NodeCall&) = delete;
+  NodeCall& operator=(const NodeCall&) = delete;
+
+ private:
+  const char* outer_node_;
+};
+
 // While it lives, this thread runs code that is not Rodeira's, such as a shared object of a laboratory. After
 // TraceCrashes a crash says so: "rodeira: crash: SIGSEGV in fmi2DoStep of FMU '/a/car.fmu'; backtrace:". Foreign code
 // that calls exit() is said the same way ("rodeira: crash: exit in ..."), and ends the process with status 1 at once.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/runtime/dds/statements.hpp"
+#include "common/runtime/launch/shared_process.hpp"
 #include "common/runtime/lockstep/named_node.hpp"
 
 namespace rodeira::dds {
@@ -49,7 +50,19 @@ std::optional<RunTermination> ClockLosses::HandleLoss(lockstep::NodeIndex node, 
       return std::nullopt;
     case lockstep::Policy::kRestart:
       Announce(node, reason);
-      return std::nullopt;
+      return LoseOthersBeside(node, reason, status);
+  }
+  return std::nullopt;
+}
+
+// They go with their process, which is started again with all its nodes.
+std::optional<RunTermination> ClockLosses::LoseOthersBeside(lockstep::NodeIndex node, const std::string& reason,
+                                                            int status) {
+  for (const lockstep::NodeIndex other : launch::NodesBeside(run_.launch, node)) {
+    if (other == node) continue;
+    const auto decision = run_.clock.HandleLoss(other);
+    if (decision.policy != lockstep::Policy::kRestart) return RunTermination{reason + "; " + decision.why, status};
+    Announce(other, "");
   }
   return std::nullopt;
 }
@@ -60,7 +73,7 @@ void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) 
   run_.watchdog.ExpectRestart(node, run_.NowMs());
   run_.missed.Restarted(node);
   Say("restart {} {} {}", run_.roster.node(node).name, run_.clock.incarnation(node), OneLine(reason));
-  run_.controller.NoteFault(reason + "; it is started again", run_.Now());
+  if (!reason.empty()) run_.controller.NoteFault(reason + "; it is started again", run_.Now());
   on_next_life_(node);
 }
 
@@ -75,16 +88,23 @@ base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
                     "--set recovery=pause or restart",
                     name));
   }
-  if (run_.launch.node(node).is_live())
-    return base::Failed("run.cannot_restart",
-                        fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
-  if (run_.clock.report(node).cannot_save)
-    return base::Failed("run.cannot_restart",
-                        fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
+  const std::vector<lockstep::NodeIndex> nodes = launch::NodesBeside(run_.launch, node);
+  for (const lockstep::NodeIndex one : nodes) {
+    const std::string& of = run_.roster.node(one).name;
+    if (run_.launch.node(one).is_live())
+      return base::Failed("run.cannot_restart",
+                          fmt::format("node '{}' is driven by a person, whose input cannot be computed again", of));
+    if (run_.clock.report(one).cannot_save)
+      return base::Failed("run.cannot_restart",
+                          fmt::format("node '{}' cannot save its state, so it cannot be started again", of));
+  }
   const std::string reason =
       fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
-  run_.clock.ExpectRestart(node);
+  for (const lockstep::NodeIndex one : nodes) run_.clock.ExpectRestart(one);
   Announce(node, reason);
+  for (const lockstep::NodeIndex one : nodes) {
+    if (one != node) Announce(one, "");
+  }
   return fmt::format("'{}' is started again", name);
 }
 

@@ -33,6 +33,8 @@ class ClockLosses {
 
  private:
   std::optional<RunTermination> HandleLoss(lockstep::NodeIndex node, const std::string& reason, int status);
+  std::optional<RunTermination> LoseOthersBeside(lockstep::NodeIndex node, const std::string& reason, int status);
+  // `reason` is empty for a node that goes with another one.
   void Announce(lockstep::NodeIndex node, const std::string& reason);
 
   ClockRun& run_;

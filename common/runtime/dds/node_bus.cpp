@@ -69,10 +69,10 @@ base::Status NodeBus::Connect(Participant& participant) {
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
-    const auto in_batches = [&](lockstep::SourceIndex source) {
-      return lockstep::GetsSampleBatches(roster_, source, settings_.node);
+    const auto comes_otherwise = [&](lockstep::SourceIndex source) {
+      return IsLocal(source) || lockstep::GetsSampleBatches(roster_, source, settings_.node);
     };
-    if (std::all_of(port.sources.begin(), port.sources.end(), in_batches)) continue;
+    if (std::all_of(port.sources.begin(), port.sources.end(), comes_otherwise)) continue;
     if (auto status = add_reader(topic, Delivery::kBestEffortRepeated,
                                  [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); });
         !status)
@@ -117,13 +117,14 @@ base::Status NodeBus::ConnectSampleBatches(Participant& participant) {
     return std::string(topics::kSampleBatches) + roster_.node(n).name;
   };
   for (const lockstep::NodeIndex n : batches_.Consumers()) {
+    if (IsHere(n)) continue;
     auto writer = participant.MakeWriter(topic_of(n), Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
     batch_writers_.emplace(n, std::move(writer).value());
   }
   const auto gets_batches = [&](const lockstep::Port& port) {
     return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) {
-      return lockstep::GetsSampleBatches(roster_, source, settings_.node);
+      return !IsLocal(source) && lockstep::GetsSampleBatches(roster_, source, settings_.node);
     });
   };
   const auto& inputs = roster_.node(settings_.node).inputs;
@@ -139,10 +140,21 @@ base::Status NodeBus::Publish(const lockstep::Sample& sample) {
   const lockstep::Grant grant = mailbox_.grant();
   retransmit_server_->Keep(sample);
   for (const auto& batch : batches_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
+    if (IsHere(batch.to)) continue;
     if (auto status = batch_writers_.at(batch.to)->Write(EncodeSampleBatch(batch.to, batch.samples)); !status)
       return status;
   }
-  return Say(sample);  // also where every consumer gets batches: others may look on
+  // Also where every consumer gets batches or is in this process: others may look on.
+  if (auto status = Say(sample); !status) return status;
+  if (settings_.exchange != nullptr) settings_.exchange->Deliver(sample);
+  return {};
+}
+
+bool NodeBus::IsHere(lockstep::NodeIndex node) const {
+  return settings_.exchange != nullptr && settings_.exchange->Has(node);
+}
+bool NodeBus::IsLocal(lockstep::SourceIndex source) const {
+  return settings_.exchange != nullptr && settings_.exchange->HasSource(source);
 }
 
 base::Status NodeBus::Say(const lockstep::Sample& sample) { return WriterOf(sample.source()).Write(*sample.payload); }
@@ -265,7 +277,16 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
                     fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic,
                                 header.source));
   }
-  lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
+  // Of a topic on which nodes of other processes publish, too. An answer has no topic.
+  if (!topic.empty() && IsLocal(header.source)) return;
+  Take({header, std::make_shared<const base::Bytes>(std::move(payload))});
+}
+
+void NodeBus::TakeLocal(const lockstep::Sample& sample) {
+  if (listens_) Take(sample);
+}
+
+void NodeBus::Take(const lockstep::Sample& sample) {
   if (auto status = Remember(sample); !status) return AbortBy(status.error(), sample);
   if (auto status = mailbox_.Deliver(sample); !status) AbortBy(status.error(), sample);
 }

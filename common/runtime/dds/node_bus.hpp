@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/runtime/dds/grant_listener.hpp"
+#include "common/runtime/dds/local_exchange.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/retransmit_server.hpp"
 #include "common/runtime/dds/wire.hpp"
@@ -42,6 +43,8 @@ class NodeBus final : public lockstep::Bus {
     std::chrono::milliseconds clock_silence{
         3000};              // the clock repeats its grant all the time; silent this long it is gone
     DomainSettings domain;  // of the participant; for another one that hears the clock while this one is held up
+    LocalExchange* exchange = nullptr;  // with the nodes that share the process; null: there are none
+    bool has_sink = false;              // one of them has a file to close
   };
   static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster,
                                                      lockstep::Mailbox& mailbox, const Settings& settings);
@@ -51,6 +54,8 @@ class NodeBus final : public lockstep::Bus {
   void Ask(const lockstep::Gap& gap) override;
   void Tell(const lockstep::Report& report) override;
 
+  // A sample of another node of this process.
+  void TakeLocal(const lockstep::Sample& sample);
   // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
   void Follow(const lockstep::Runner* runner);
   void SetWorldHash(base::Digest hash);
@@ -72,8 +77,14 @@ class NodeBus final : public lockstep::Bus {
   // While it lives, the calling thread, one that receives, handles a message.
   class Receiving {
    public:
-    explicit Receiving(NodeBus& bus) : bus_(bus) { ++bus_.messages_begun_; }
-    ~Receiving() { ++bus_.messages_done_; }
+    explicit Receiving(NodeBus& bus) : bus_(bus) {
+      ++bus_.messages_begun_;
+      if (bus_.settings_.exchange != nullptr) ++bus_.settings_.exchange->messages_begun;
+    }
+    ~Receiving() {
+      ++bus_.messages_done_;
+      if (bus_.settings_.exchange != nullptr) ++bus_.settings_.exchange->messages_done;
+    }
     Receiving(const Receiving&) = delete;
     Receiving& operator=(const Receiving&) = delete;
 
@@ -89,6 +100,9 @@ class NodeBus final : public lockstep::Bus {
   base::Status Connect(Participant& participant);
   base::Status ConnectSampleBatches(Participant& participant);
   base::Status Say(const lockstep::Sample& sample);
+  bool IsLocal(lockstep::SourceIndex source) const;  // its samples come by the exchange
+  bool IsHere(lockstep::NodeIndex node) const;       // in this process, beside this node
+  void Take(const lockstep::Sample& sample);
   OnPayload Noted(OnPayload on_payload);  // counts its messages
   void OnSampleBatch(const base::Bytes& payload);
   void OnAnswer(const base::Bytes& payload);
@@ -140,7 +154,8 @@ class NodeBus final : public lockstep::Bus {
   lockstep::ClockSilence clock_silence_;
   std::atomic<std::uint64_t> messages_begun_ = 0;  // by all receiving threads
   std::atomic<std::uint64_t> messages_done_ = 0;
-  std::optional<std::chrono::steady_clock::time_point> held_up_since_;  // a receiving thread, by one message
+  // A receiving thread, by one message of this node.
+  std::optional<std::chrono::steady_clock::time_point> held_up_since_;
   std::optional<std::chrono::steady_clock::time_point> ends_since_;     // it has to end, and has not yet
   std::optional<std::chrono::steady_clock::time_point> leaves_since_;   // the same, of the process
   std::optional<std::chrono::steady_clock::time_point> listens_since_;  // to the clock, over another participant

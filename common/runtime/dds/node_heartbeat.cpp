@@ -63,7 +63,7 @@ void NodeBus::EndIfItHangs(const lockstep::Grant& grant) {
   if (!grant.over && !grant.abort) return;
   if (!leaves_since_) leaves_since_ = WallClock::now();
   const lockstep::RosterNode& spec = roster_.node(settings_.node);
-  const auto limit = spec.is_sink() ? kTimeToClose : kTimeToLeave;
+  const auto limit = spec.is_sink() || settings_.has_sink ? kTimeToClose : kTimeToLeave;
   if (WallClock::now() - *leaves_since_ < limit) return;
   const std::string sentence = fmt::format(
       "rodeira: node '{}' hangs {} s after it was told to end ({}); its process is ended\n", spec.name,
@@ -93,7 +93,8 @@ lockstep::Report NodeBus::ReportNow() {
 
 void NodeBus::Heartbeat() {
   std::unique_lock lock(mutex_);
-  std::uint64_t begun_before = 0;
+  std::uint64_t begun_before = 0, all_begun_before = 0;
+  std::optional<WallClock::time_point> deaf_since;  // a receiving thread of the process is held up
   auto looked = WallClock::now();
   while (!stop_) {
     // A step may run on the receiving thread: one that hangs keeps all further messages, also the clock's, waiting.
@@ -101,10 +102,17 @@ void NodeBus::Heartbeat() {
     const bool was_stopped = WallClock::now() - looked > settings_.clock_silence / 10;
     const bool held_up = begun == begun_before && begun != done;
     if (!held_up || !held_up_since_) held_up_since_ = held_up ? std::optional(looked) : std::nullopt;
+    // Of a thread that receives for several nodes, the message of one keeps those of all waiting.
+    const LocalExchange* shared = settings_.exchange;
+    const std::uint64_t all_done = shared == nullptr ? done : shared->messages_done.load();
+    const std::uint64_t all_begun = shared == nullptr ? begun : shared->messages_begun.load();
+    const bool deaf = all_begun == all_begun_before && all_begun != all_done;
+    if (!deaf || !deaf_since) deaf_since = deaf ? std::optional(looked) : std::nullopt;
     begun_before = begun;
+    all_begun_before = all_begun;
     looked = WallClock::now();
-    if (held_up && WallClock::now() - *held_up_since_ > kHeldUpLong) ListenMeanwhile();
-    const bool silent = clock_silence_.IsSilent(NowMs(), CanHear(held_up));
+    if (deaf && WallClock::now() - *deaf_since > kHeldUpLong) ListenMeanwhile();
+    const bool silent = clock_silence_.IsSilent(NowMs(), CanHear(deaf));
     lock.unlock();
     const lockstep::Grant grant = mailbox_.grant();
     EndIfItHangs(grant);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,9 @@ struct ProcessOptions {
   std::uint32_t domain = 0;
   std::uint32_t incarnation = 0;
   launch::Overrides overrides;
+  // For a process of several nodes alone.
+  std::string process;                                // its name in the launch file
+  std::map<std::string, std::uint32_t> incarnations;  // of its nodes that were started again
   // For the clock alone.
   double pace = 0.0;  // 0: as fast as possible
   std::optional<double> duration_s;
@@ -36,7 +40,8 @@ struct ParsedOptions {
   ProcessOptions options;
   std::optional<int> leave_with;
 };
-ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, char** argv);
+enum class ProgramOf { kClock, kNode, kNodes };
+ParsedOptions ParseOptions(const std::string& program, ProgramOf of, int argc, char** argv);
 
 // In place of the clock where options.follow is set (run_follower.cpp); the exit status comes back.
 int FollowClock(const launch::Launch& launch, const ProcessOptions& options);

@@ -11,6 +11,8 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fmt/format.h>
 
 #include <map>
@@ -177,6 +179,11 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
     if (auto status = CheckSpace(SharedMemoryNeed(settings.segment_kib)); !status) return status.error();
   }
   RedirectLibraryLog();
+  if (!settings.delivers_within) {
+    eprosima::fastrtps::LibrarySettingsAttributes library;
+    library.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(library);
+  }
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
   if (participant == nullptr) {

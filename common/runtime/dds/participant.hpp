@@ -36,6 +36,8 @@ struct DomainSettings {
   bool has_observers = false;     // with shared memory: samples also go over UDP, for programs that are not Rodeira's
   std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;  // of shared memory
   idl::TopicTable topics = {};                                         // names and types of the topics
+  // Endpoints of this process reach each other by calls within a write; false: by the transport, on a receive thread.
+  bool delivers_within = true;
 };
 
 // Sends payloads on one topic.

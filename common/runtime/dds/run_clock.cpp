@@ -312,7 +312,7 @@ int RunClock(int argc, char** argv) {
   base::PinMathLibrary(argv);
   base::TraceCrashes();
   base::NameExhaustion("rodeira-clock");
-  const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
+  const ParsedOptions parsed = ParseOptions("rodeira-clock", ProgramOf::kClock, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);
   if (!launch) return base::PrintError("rodeira-clock", launch.error());

@@ -9,17 +9,15 @@
 #include <optional>
 
 #include "common/core/base/crash_trace.hpp"
-#include "common/core/base/exhaustion.hpp"
-#include "common/core/base/mathematics.hpp"
-#include "common/core/base/print_error.hpp"
 #include "common/core/base/wait.hpp"
+#include "common/runtime/dds/hosted_part.hpp"
 #include "common/runtime/dds/node_bus.hpp"
-#include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/remote_ground.hpp"
 #include "common/runtime/dds/remote_keys.hpp"
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/remote_requests.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/run_one_part.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/launch/node_library.hpp"
 #include "common/runtime/lockstep/pump.hpp"
@@ -152,89 +150,152 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
   return {};
 }
 
-// The node is made and runs; what goes wrong is told to the clock, which ends the run.
-int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
-          const ProcessOptions& options) {
-  const auto fail = [&](const base::Error& error) {
+// Its calls are those of the node, on whatever thread they come: what crashes is named.
+class NamedCalls final : public lockstep::Node {
+ public:
+  NamedCalls(std::unique_ptr<lockstep::Node> node, const char* name) : node_(std::move(node)), name_(name) {}
+  base::Status Initialise(lockstep::Outbox& outbox) override {
+    const base::NodeCall call(name_);
+    return node_->Initialise(outbox);
+  }
+  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
+    const base::NodeCall call(name_);
+    return node_->Step(step, inbox, outbox);
+  }
+  base::Status Flush() override {
+    const base::NodeCall call(name_);
+    return node_->Flush();
+  }
+  bool runs_inline() const override { return node_->runs_inline(); }
+  void Save(base::StateWriter& out) const override {
+    const base::NodeCall call(name_);
+    node_->Save(out);
+  }
+  void Restore(base::StateReader& in) override {
+    const base::NodeCall call(name_);
+    node_->Restore(in);
+  }
+  bool can_save() const override { return node_->can_save(); }
+  base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
+    const base::NodeCall call(name_);
+    return node_->Finish(rest, last_step, complete);
+  }
+
+ private:
+  std::unique_ptr<lockstep::Node> node_;
+  const char* name_;
+};
+
+class HostedNode final : public HostedPart {
+ public:
+  HostedNode(const PartHost& host, lockstep::NodeIndex index, std::uint32_t incarnation, launch::NodeFactory factory)
+      : host_(host),
+        name_(host.exchange == nullptr ? "" : host.launch.roster().node(index).name),
+        incarnation_(incarnation),
+        factory_(std::move(factory)),
+        mailbox_(host.launch.roster(), index) {}
+
+  base::Status Open(lockstep::NodeIndex index) {
+    const lockstep::Roster& roster = host_.launch.roster();
+    const bool is_shared_memory = host_.domain.transport == launch::Transport::kSharedMemory;
+    NodeBus::Settings settings;
+    settings.node = index;
+    settings.incarnation = incarnation_;
+    settings.hello = OwnHello(host_.launch, index);
+    settings.topics = host_.launch.topics();
+    settings.domain = host_.domain;
+    settings.max_batch_bytes = is_shared_memory ? kSampleBatchInMemory_bytes : kSampleBatchOnWire_bytes;
+    settings.most_answer_bytes = is_shared_memory ? kSampleBatchInMemory_bytes : kAnswerOnWire_bytes;
+    settings.keeps_all = host_.launch.keeps_for_restarts() && roster.node(index).keeps_snapshots();
+    settings.exchange = host_.exchange;
+    settings.has_sink = host_.has_sink;
+    auto bus = NodeBus::Open(host_.participant, roster, mailbox_, settings);
+    if (!bus) return bus.error();
+    bus_ = std::move(bus).value();
+    if (host_.exchange != nullptr) host_.exchange->Join(index, *bus_);
+    context_.emplace(host_.launch, index, host_.participant, mailbox_, *bus_, incarnation_);
+    return {};
+  }
+
+  void Make() override {
+    const base::NodeCall call(name_.empty() ? nullptr : name_.c_str());
+    problem_ = MakeNode();
+  }
+
+  // What goes wrong is told to the clock, which ends the run.
+  int Run() override {
+    if (!problem_.ok()) return Fail(problem_.error());
+    lockstep::Runner::Settings settings;
+    settings.incarnation = incarnation_;
+    if (incarnation_ > 0) {
+      if (auto status = FindBeginning(*context_, *bus_, mailbox_, settings); !status) return Fail(status.error());
+    }
+    lockstep::Runner runner(context_->roster(), context_->index(), *node_, *bus_, mailbox_, settings);
+    context_->Follow(&runner);
+    bus_->Follow(&runner);
+    const auto outcome = node_->runs_inline() ? lockstep::RunInline(runner, mailbox_, settings) : runner.Run();
+    context_->Follow(nullptr);
+    const bool finished = outcome == lockstep::Runner::Outcome::kFinished;
+    WriteLastWord(runner.report(), name_);
+    bus_->Linger(runner.report(), finished ? std::nullopt : std::optional(500ms));
+    if (finished) return 0;
+    return runner.report().phase == lockstep::Phase::kRefused ? 2 : 1;
+  }
+
+ private:
+  base::Status MakeNode() {
+    (void)context_->config();  // so that the keys of a node that reads none are unknown ones
+    auto node = factory_(*context_);
+    if (!node) return node.error();
+    node = launch::AsManifestSays(*host_.launch.node(context_->index()).kind, std::move(node).value());
+    if (!node) return node.error();
+    node_ = std::move(node).value();
+    if (!name_.empty()) node_ = std::make_unique<NamedCalls>(std::move(node_), name_.c_str());
+    if (auto status = host_.launch.file().Finish(); !status) return status;
+    bus_->SetWorldHash(context_->world_hash());
+    return {};
+  }
+  int Fail(const base::Error& error) {
     lockstep::Report report;
-    report.node = context.index();
-    report.incarnation = options.incarnation;
-    const auto end = mailbox.early_end().value_or(lockstep::EarlyEnd{
+    report.node = context_->index();
+    report.incarnation = incarnation_;
+    const auto end = mailbox_.early_end().value_or(lockstep::EarlyEnd{
         error.exit_status() == 2 ? lockstep::LifeEvent::kRefused : lockstep::LifeEvent::kFailed, error.Text()});
     report.phase = lockstep::NextPhase(report.phase, end.event);
     report.message = end.reason;
-    WriteLastWord(report);
-    bus.Linger(report, 1000ms);
+    WriteLastWord(report, name_);
+    bus_->Linger(report, 1000ms);
     return report.phase == lockstep::Phase::kRefused ? 2 : 1;
-  };
-  (void)context.config();  // so that the keys of a node that reads none are unknown ones
-  auto node = factory(context);
-  if (!node) return fail(node.error());
-  node = launch::AsManifestSays(*context.launch().node(context.index()).kind, std::move(node).value());
-  if (!node) return fail(node.error());
-  if (auto status = context.launch().file().Finish(); !status) return fail(status.error());
-  bus.SetWorldHash(context.world_hash());
-  lockstep::Runner::Settings settings;
-  settings.incarnation = options.incarnation;
-  if (options.incarnation > 0) {
-    if (auto status = FindBeginning(context, bus, mailbox, settings); !status) return fail(status.error());
   }
-  lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
-  context.Follow(&runner);
-  bus.Follow(&runner);
-  const bool brief = node.value()->runs_inline();
-  const auto outcome = brief ? lockstep::RunInline(runner, mailbox, settings) : runner.Run();
-  context.Follow(nullptr);
-  const bool finished = outcome == lockstep::Runner::Outcome::kFinished;
-  WriteLastWord(runner.report());
-  bus.Linger(runner.report(), finished ? std::nullopt : std::optional(500ms));
-  if (finished) return 0;
-  return runner.report().phase == lockstep::Phase::kRefused ? 2 : 1;
-}
+
+  const PartHost host_;
+  const std::string name_;  // empty: the process has one node
+  const std::uint32_t incarnation_;
+  launch::NodeFactory factory_;
+  lockstep::Mailbox mailbox_;
+  std::unique_ptr<NodeBus> bus_;
+  std::optional<ProcessContext> context_;
+  std::unique_ptr<lockstep::Node> node_;
+  base::Status problem_;
+};
 
 }  // namespace
 
+base::Result<std::unique_ptr<HostedPart>> OpenNode(const PartHost& host, lockstep::NodeIndex index,
+                                                   std::uint32_t incarnation, launch::NodeFactory factory) {
+  auto node = std::make_unique<HostedNode>(host, index, incarnation, std::move(factory));
+  if (auto status = node->Open(index); !status) return status.error();
+  return std::unique_ptr<HostedPart>(std::move(node));
+}
+
 int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory) {
-  base::PinMathLibrary(argv);
-  base::TraceCrashes();
   // An external node is called as its file is.
   const std::string program = kind == launch::kExternalKind ? std::filesystem::path(argv[0]).filename().string()
                                                             : fmt::format("rodeira-{}", kind);
-  base::NameExhaustion(program);
-  const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
-  if (parsed.leave_with) return *parsed.leave_with;
-  NodeBus::HandleSignals();
-  const ProcessOptions& options = parsed.options;
-  const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
-  if (!launch) return base::PrintError(program, launch.error());
-  const auto& roster = launch.value().roster();
-  const lockstep::NodeIndex index = roster.Find(options.node);
-  if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return base::PrintError(
-        program, base::WrongInput("launch.unknown_node",
-                                  fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
-                                              options.node, kind),
-                                  options.launch_file));
-  }
-  const DomainSettings domain = DomainOf(options, launch.value(), options.node);
-  auto participant = Participant::Open(domain);
-  if (!participant) return base::PrintError(program, participant.error());
-  lockstep::Mailbox mailbox(roster, index);
-  NodeBus::Settings settings;
-  settings.node = index;
-  settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(launch.value(), index);
-  settings.topics = launch.value().topics();
-  settings.domain = domain;
-  settings.max_batch_bytes =
-      domain.transport == launch::Transport::kSharedMemory ? kSampleBatchInMemory_bytes : kSampleBatchOnWire_bytes;
-  settings.most_answer_bytes =
-      domain.transport == launch::Transport::kSharedMemory ? kSampleBatchInMemory_bytes : kAnswerOnWire_bytes;
-  settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
-  auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
-  if (!bus) return base::PrintError(program, bus.error());
-  ProcessContext context(launch.value(), index, *participant.value(), mailbox, *bus.value(), options.incarnation);
-  return Drive(factory, context, *bus.value(), mailbox, options);
+  return RunOnePart(program, kind, argc, argv,
+                    [&](const PartHost& host, lockstep::NodeIndex index, std::uint32_t incarnation) {
+                      return OpenNode(host, index, incarnation, factory);
+                    });
 }
 
 }  // namespace rodeira::dds

@@ -5,12 +5,10 @@
 #include <thread>
 
 #include "common/core/base/crash_trace.hpp"
-#include "common/core/base/exhaustion.hpp"
-#include "common/core/base/mathematics.hpp"
-#include "common/core/base/print_error.hpp"
+#include "common/runtime/dds/hosted_part.hpp"
 #include "common/runtime/dds/node_bus.hpp"
-#include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/dds/run_one_part.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
 #include "idl/topics.hpp"
 
@@ -27,94 +25,131 @@ class ServiceContext final : public launch::NodeContext {
   base::Result<launch::WorldSummary> World() override { RODEIRA_ASSERT(false && "a server has no ground server"); }
 };
 
+class HostedService final : public HostedPart {
+ public:
+  HostedService(const PartHost& host, lockstep::NodeIndex index, std::uint32_t incarnation,
+                launch::ServiceFactory factory)
+      : host_(host),
+        name_(host.exchange == nullptr ? "" : host.launch.roster().node(index).name),
+        factory_(std::move(factory)),
+        mailbox_(host.launch.roster(), index),
+        context_(host.launch, index) {
+    report_.node = index;
+    report_.incarnation = incarnation;
+  }
+  ~HostedService() override { requests_.reset(); }  // first: its callback uses the rest
+
+  base::Status Open() {
+    NodeBus::Settings settings;
+    settings.node = report_.node;
+    settings.incarnation = report_.incarnation;
+    settings.hello = OwnHello(host_.launch, report_.node);
+    settings.domain = host_.domain;
+    settings.exchange = host_.exchange;
+    settings.has_sink = host_.has_sink;
+    auto bus = NodeBus::Open(host_.participant, host_.launch.roster(), mailbox_, settings);
+    if (!bus) return bus.error();
+    bus_ = std::move(bus).value();
+    if (host_.exchange != nullptr) host_.exchange->Join(report_.node, *bus_);
+    return {};
+  }
+
+  void Make() override { problem_ = MakeService(); }
+
+  int Run() override {
+    if (!problem_.ok()) {
+      const base::Error& error = problem_.error();
+      report_.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
+      report_.message = error.Text();
+      WriteLastWord(report_, name_);
+      bus_->Linger(report_, 1000ms);
+      return error.exit_status();
+    }
+    report_.phase = lockstep::Phase::kRunning;
+    report_.waiting = lockstep::Waiting::kGrant;
+    bus_->Tell(report_);
+    for (;;) {
+      const lockstep::Grant grant = mailbox_.grant();
+      if (const auto end = mailbox_.early_end()) {
+        report_.phase = lockstep::NextPhase(report_.phase, end->event);
+        report_.message = end->reason;
+        WriteLastWord(report_, name_);
+        bus_->Linger(report_, 300ms);
+        return 1;
+      }
+      if (grant.over || grant.abort) return grant.abort ? 1 : 0;
+      // The run's end is known once all others have finished; a server is finished whenever they are.
+      if (grant.final && report_.phase != lockstep::Phase::kFinished) {
+        report_.phase = lockstep::Phase::kFinished;
+        report_.steps = 0;
+        report_.server_calls = answered_;
+        bus_->Tell(report_);
+      }
+      std::this_thread::sleep_for(5ms);
+    }
+  }
+
+ private:
+  // Answers from here on: nodes that are made later in this process may ask.
+  base::Status MakeService() {
+    auto service = factory_(context_);
+    if (auto finish = host_.launch.file().Finish(); !service || !finish)
+      return service ? finish : base::Status(service.error());
+    service_ = std::move(service).value();
+    bus_->SetWorldHash(service_->world_hash());
+    auto replies = host_.participant.MakeWriter(topics::kGroundReply, Delivery::kBestEffortRepeated);
+    if (!replies) return replies.error();
+    replies_ = std::move(replies).value();
+    auto information = host_.participant.MakeWriter(topics::kWorldInfo, Delivery::kLatched);
+    if (!information) return information.error();
+    information_ = std::move(information).value();
+    if (auto status = information_->Write(service_->Announcement()); !status) return status;
+    // The server waits for no node, so it may answer on the receive thread itself: one thread change less in every
+    // step.
+    auto requests = host_.participant.MakeReader(topics::kGroundRequest, Delivery::kBestEffortRepeated,
+                                                 [this](base::Bytes&& request) { Answer(request); });
+    if (!requests) return requests.error();
+    requests_ = std::move(requests).value();
+    return {};
+  }
+  void Answer(const base::Bytes& request) {
+    const NodeBus::Receiving note(*bus_);
+    const base::NodeCall call(name_.empty() ? nullptr : name_.c_str());
+    auto reply = service_->Answer(request);
+    if (!reply) return;
+    (void)replies_->Write(reply.value());
+    ++answered_;
+  }
+
+  const PartHost host_;
+  const std::string name_;  // empty: the process has one node
+  launch::ServiceFactory factory_;
+  lockstep::Mailbox mailbox_;
+  ServiceContext context_;
+  lockstep::Report report_;
+  std::unique_ptr<NodeBus> bus_;
+  std::unique_ptr<launch::Service> service_;
+  std::unique_ptr<Writer> replies_;
+  std::unique_ptr<Writer> information_;
+  std::unique_ptr<Reader> requests_;
+  std::atomic<std::uint64_t> answered_ = 0;
+  base::Status problem_;
+};
+
 }  // namespace
 
-int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory) {
-  base::PinMathLibrary(argv);
-  base::TraceCrashes();
-  const std::string program = fmt::format("rodeira-{}", kind);
-  base::NameExhaustion(program);
-  const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
-  if (parsed.leave_with) return *parsed.leave_with;
-  NodeBus::HandleSignals();
-  const ProcessOptions& options = parsed.options;
-  const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
-  if (!launch) return base::PrintError(program, launch.error());
-  const auto& roster = launch.value().roster();
-  const lockstep::NodeIndex index = roster.Find(options.node);
-  if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return base::PrintError(
-        program, base::WrongInput("launch.unknown_node",
-                                  fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
-                                              options.node, kind),
-                                  options.launch_file));
-  }
-  const DomainSettings domain = DomainOf(options, launch.value(), options.node);
-  auto participant = Participant::Open(domain);
-  if (!participant) return base::PrintError(program, participant.error());
-  lockstep::Mailbox mailbox(roster, index);
-  NodeBus::Settings settings;
-  settings.node = index;
-  settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(launch.value(), index);
-  settings.domain = domain;
-  auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
-  if (!bus) return base::PrintError(program, bus.error());
+base::Result<std::unique_ptr<HostedPart>> OpenService(const PartHost& host, lockstep::NodeIndex index,
+                                                      std::uint32_t incarnation, launch::ServiceFactory factory) {
+  auto service = std::make_unique<HostedService>(host, index, incarnation, std::move(factory));
+  if (auto status = service->Open(); !status) return status.error();
+  return std::unique_ptr<HostedPart>(std::move(service));
+}
 
-  lockstep::Report report;
-  report.node = index;
-  report.incarnation = options.incarnation;
-  ServiceContext context(launch.value(), index);
-  auto service = factory(context);
-  auto finish = launch.value().file().Finish();
-  if (!service || !finish) {
-    const base::Error& error = service ? finish.error() : service.error();
-    report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
-    report.message = error.Text();
-    WriteLastWord(report);
-    bus.value()->Linger(report, 1000ms);
-    return error.exit_status();
-  }
-  bus.value()->SetWorldHash(service.value()->world_hash());
-  auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kBestEffortRepeated);
-  auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kLatched);
-  if (!replies) return base::PrintError(program, replies.error());
-  if (!information) return base::PrintError(program, information.error());
-  if (auto status = information.value()->Write(service.value()->Announcement()); !status)
-    return base::PrintError(program, status.error());
-  std::atomic<std::uint64_t> answered = 0;
-  // The server waits for no node, so it may answer on the receive thread itself: one thread change less in every step.
-  auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kBestEffortRepeated,
-                                                  [&](base::Bytes&& request) {
-                                                    const NodeBus::Receiving note(*bus.value());
-                                                    auto reply = service.value()->Answer(request);
-                                                    if (!reply) return;
-                                                    (void)replies.value()->Write(reply.value());
-                                                    ++answered;
-                                                  });
-  if (!requests) return base::PrintError(program, requests.error());
-  report.phase = lockstep::Phase::kRunning;
-  report.waiting = lockstep::Waiting::kGrant;
-  bus.value()->Tell(report);
-  for (;;) {
-    const lockstep::Grant grant = mailbox.grant();
-    if (const auto end = mailbox.early_end()) {
-      report.phase = lockstep::NextPhase(report.phase, end->event);
-      report.message = end->reason;
-      WriteLastWord(report);
-      bus.value()->Linger(report, 300ms);
-      return 1;
-    }
-    if (grant.over || grant.abort) return grant.abort ? 1 : 0;
-    // The run's end is known once all others have finished; a server is finished whenever they are.
-    if (grant.final && report.phase != lockstep::Phase::kFinished) {
-      report.phase = lockstep::Phase::kFinished;
-      report.steps = 0;
-      report.server_calls = answered;
-      bus.value()->Tell(report);
-    }
-    std::this_thread::sleep_for(5ms);
-  }
+int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory) {
+  return RunOnePart(fmt::format("rodeira-{}", kind), kind, argc, argv,
+                    [&](const PartHost& host, lockstep::NodeIndex index, std::uint32_t incarnation) {
+                      return OpenService(host, index, incarnation, factory);
+                    });
 }
 
 }  // namespace rodeira::dds

@@ -37,9 +37,10 @@ bool TakeNumber(std::string_view& text, Number& number) {
 
 }  // namespace
 
-void WriteLastWord(const lockstep::Report& report) {
+void WriteLastWord(const lockstep::Report& report, std::string_view node) {
   if (!lockstep::IsFault(report.phase)) return;
-  const std::string line = fmt::format("{}{} {} {}\n", kLastWord, lockstep::PhaseName(report.phase), report.progress,
+  const std::string begin = node.empty() ? std::string(kLastWord) : fmt::format("{}{}': ", kLastWordOfNode, node);
+  const std::string line = fmt::format("{}{} {} {}\n", begin, lockstep::PhaseName(report.phase), report.progress,
                                        OneLine(report.message));
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }

@@ -33,8 +33,11 @@ struct LastWord {
 };
 // The line begins with it; "PHASE STEP TEXT" follows.
 inline constexpr std::string_view kLastWord = "rodeira: end: ";
-// Writes the line where the report is that of a node which failed, was refused or told to end; else nothing.
-void WriteLastWord(const lockstep::Report& report);
+// The same of one of several nodes of a process: this, NODE, "': " and the rest.
+inline constexpr std::string_view kLastWordOfNode = "rodeira: end of node '";
+// Writes the line where the report is that of a node which failed, was refused or told to end; else nothing. `node` is
+// empty in a process of one node.
+void WriteLastWord(const lockstep::Report& report, std::string_view node = {});
 // "NODE INCARNATION PHASE STEP TEXT"; nothing where it is not of that form.
 std::optional<LastWord> ParseLastWord(std::string_view text);
 

@@ -13,6 +13,7 @@
 #include "common/runtime/launch/launch_schema.hpp"
 #include "common/runtime/launch/manifest.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "common/runtime/launch/shared_process.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -309,6 +310,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     LaunchNode node{name, kind.value(), node_keys.Text("host", ""), std::make_shared<const config::Map>(map),
                     launch.recovery_};
     if (map.Has("recovery")) node.recovery = ReadPolicy(node_keys);
+    node.process = node_keys.Text("process", "");
     node_keys.MapWith("config").IgnoreKey("config");
     specs.push_back(ReadNode(node_keys, name, *kind.value(), base_step_ns));
     launch.nodes_.push_back(std::move(node));
@@ -317,6 +319,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   AddToRecorders(launch.topics_, launch.nodes_);
   SetSnapshots(declared, base_step_ns, specs);
   ExceptLiveInput(maps, launch.nodes_);
+  SettleProcesses(maps, launch.nodes_);
   for (const Manifest& manifest : manifests) {
     const base::Status inputs = CheckInputs(manifest, launch.topics_);
     if (inputs.ok()) continue;

@@ -28,6 +28,7 @@ struct LaunchNode {
   std::string host;                                     // of a laboratory; empty: the clock's
   std::shared_ptr<const config::Map> config;            // what the node itself reads; may be empty
   lockstep::Policy recovery = lockstep::Policy::kStop;  // what becomes of the run where the node is lost
+  std::string process = {};                             // shared with others of this name; empty: its own
 
   // Driven by a person: what it publishes cannot be computed again.
   bool is_live() const;

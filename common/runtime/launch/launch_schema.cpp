@@ -108,11 +108,12 @@ const std::vector<config::Key>& NodeKeys() {
       WithDefaultNote("that of the run",
                       config::OptionalWordKey("recovery", kPolicies, "What follows if this node is lost.")),
       ComputedTextKey("host", "the clock's", "a", "Host of a laboratory."),
+      ComputedTextKey("process", "its own", "cars", "Nodes of one host and one `process` share a process."),
       InputsKey(),
       OutputsKey(),
       ComputedTextKey("program", "required for `external`", "", "Program of a node of kind `external`."),
       ComputedTextKey("manifest", "required for `external`", "", "Its manifest, NAME.yaml."),
-      ComputedTextKey("library", "none", "", "Its shared object, for runs in one process.")};
+      ComputedTextKey("library", "none", "", "Its shared object, for shared processes.")};
   return keys;
 }
 

@@ -54,14 +54,6 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
   return std::shared_ptr<const road::World>();
 }
 
-base::Result<launch::NodeFactory> LibraryOf(const launch::LaunchNode& node) {
-  if (!node.kind->library.empty()) return launch::LoadNodeLibrary(node.kind->library);
-  return base::WrongInput(
-      "launch.not_in_process",
-      fmt::format("its program {} is a process of its own; a run in one process needs its shared object, as 'library'",
-                  node.kind->program));
-}
-
 }  // namespace
 
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
@@ -87,21 +79,10 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       made.nodes_.back() = made.owned_.back().get();
       continue;
     }
-    launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
-    if (factory == nullptr && roster.node(n).kind == "view")
-      return base::WrongInput("launch.not_built_in", "this program has no view: it was built with RODEIRA_VIEW=OFF",
-                              fmt::format("node '{}'", roster.node(n).name));
-    if (launch.node(n).is_external()) {
-      auto loaded = LibraryOf(launch.node(n));
-      if (!loaded) return loaded.error().In(fmt::format("node '{}'", roster.node(n).name));
-      factory = std::move(loaded).value();
-    }
-    if (factory == nullptr)
-      return base::WrongInput("launch.not_in_process",
-                              fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
-                              fmt::format("node '{}'", roster.node(n).name));
+    const auto factory = FactoryOf(launch.node(n));
+    if (!factory) return factory.error().In(fmt::format("node '{}'", roster.node(n).name));
     (void)made.contexts_.back()->config();  // so that the keys of a node that reads none are unknown ones
-    auto node = factory(*made.contexts_.back());
+    auto node = factory.value()(*made.contexts_.back());
     if (node.ok()) node = launch::AsManifestSays(*launch.node(n).kind, std::move(node).value());
     if (!node) return node.error().In(fmt::format("node '{}'", roster.node(n).name));
     made.owned_.push_back(std::move(node).value());

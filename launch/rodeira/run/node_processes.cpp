@@ -11,6 +11,7 @@
 
 #include "common/core/base/installation.hpp"
 #include "common/core/base/user_folders.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
@@ -31,13 +32,28 @@ base::Status MakeSureItIsDead(Child& child) {
 
 }  // namespace
 
+std::string ProgramOf(const launch::Launch& launch, const launch::NodeProcess& process) {
+  if (!process.is_shared()) return launch.node(process.nodes.front()).kind->program;
+  const bool draws = std::ranges::any_of(process.nodes, [&](lockstep::NodeIndex n) {
+    return launch.node(n).kind->name == "view" || ReadsDevice(launch.node(n));
+  });
+  return draws ? "rodeira-nodes-graphics" : "rodeira-nodes";
+}
+
 NodeProcesses::NodeProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
                              launch::Overrides overrides)
     : options_(options),
       placement_(placement),
       launch_(launch),
       overrides_(std::move(overrides)),
-      domain_(options.domain.value()) {}
+      domain_(options.domain.value()) {
+  for (launch::NodeProcess& process : launch::ProcessesOf(launch)) {
+    const launch::LaunchNode& first = launch.node(process.nodes.front());
+    if (!placement.Has(first)) continue;
+    const std::string child = process.is_shared() ? "process " + process.name : first.name;
+    parts_.push_back({child, std::move(process)});
+  }
+}
 
 std::vector<std::string> NodeProcesses::Command(const std::string& program) const {
   std::vector<std::string> command{base::FindProgram(program).string(),
@@ -108,29 +124,78 @@ base::Status NodeProcesses::RestartClock(const ClocksPlace& place) {
 
 base::Status NodeProcesses::StartNodes() {
   has_nodes_ = true;
-  for (const launch::LaunchNode& node : launch_.nodes()) {
-    if (!placement_.Has(node)) continue;
-    std::vector<std::string> command = Command(std::string(node.kind->program));
-    command.insert(command.end(), {"--node", node.name});
-    auto started = Child::Start(node.name, command, false, MakeLog(node.name));
-    if (!started) return started.error();
-    children_.push_back(std::move(started).value());
+  for (const Part& part : parts_) {
+    if (auto status = Start(part, nullptr); !status) return status;
   }
   return {};
 }
 
-base::Result<bool> NodeProcesses::RestartNode(const std::string& name, std::uint32_t incarnation) {
-  const auto child =
-      std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
-  if (child == children_.end()) return false;
-  if (auto status = MakeSureItIsDead(*child); !status) return status.error();
-  std::vector<std::string> command = Command(std::string(launch_.node(launch_.roster().Find(name)).kind->program));
-  command.insert(command.end(), {"--node", name, "--incarnation", std::to_string(incarnation)});
-  auto started = Child::Start(name, command, false, MakeLog(name));
+const NodeProcesses::Part* NodeProcesses::PartOf(std::string_view child) const {
+  const auto part = std::ranges::find(parts_, child, &Part::child);
+  return part == parts_.end() ? nullptr : &*part;
+}
+
+std::vector<std::string> NodeProcesses::CommandOf(const Part& part) const {
+  std::vector<std::string> command = Command(ProgramOf(launch_, part.process));
+  const std::string& first = launch_.node(part.process.nodes.front()).name;
+  if (!part.process.is_shared()) {
+    command.insert(command.end(), {"--node", first});
+    if (const auto number = incarnation(first); number > 0)
+      command.insert(command.end(), {"--incarnation", std::to_string(number)});
+    return command;
+  }
+  command.insert(command.end(), {"--process", part.process.name});
+  for (const lockstep::NodeIndex n : part.process.nodes) {
+    const std::string& name = launch_.node(n).name;
+    if (const auto number = incarnation(name); number > 0)
+      command.insert(command.end(), {"--incarnation", fmt::format("{}={}", name, number)});
+  }
+  return command;
+}
+
+base::Status NodeProcesses::Start(const Part& part, Child* place) {
+  auto started = Child::Start(part.child, CommandOf(part), false, MakeLog(part.child));
   if (!started) return started.error();
-  *child = std::move(started).value();
-  incarnations_[name] = incarnation;
-  return true;
+  if (place == nullptr)
+    children_.push_back(std::move(started).value());
+  else
+    *place = std::move(started).value();
+  return {};
+}
+
+base::Result<NodeProcesses::Restarted> NodeProcesses::RestartNode(const std::string& name, std::uint32_t incarnation) {
+  const lockstep::NodeIndex node = launch_.roster().Find(name);
+  const auto part = std::ranges::find_if(
+      parts_, [&](const Part& one) { return std::ranges::find(one.process.nodes, node) != one.process.nodes.end(); });
+  if (part == parts_.end()) return Restarted::kElsewhere;
+  wanted_[name] = incarnation;
+  for (const lockstep::NodeIndex n : part->process.nodes) {
+    const std::string& other = launch_.node(n).name;
+    if (const auto wanted = wanted_.find(other); wanted == wanted_.end() || wanted->second <= this->incarnation(other))
+      return Restarted::kAwaitsOthers;
+  }
+  const auto child = std::ranges::find_if(children_, [&](const Child& one) { return one.name() == part->child; });
+  if (child == children_.end()) return Restarted::kElsewhere;
+  if (auto status = MakeSureItIsDead(*child); !status) return status.error();
+  for (const lockstep::NodeIndex n : part->process.nodes)
+    incarnations_[launch_.node(n).name] = wanted_[launch_.node(n).name];
+  if (auto status = Start(*part, &*child); !status) return status.error();
+  return Restarted::kDone;
+}
+
+std::vector<std::string> NodeProcesses::NodesOf(const Child& child) const {
+  const Part* part = PartOf(child.name());
+  if (part == nullptr) return {};
+  std::vector<std::string> names;
+  for (const lockstep::NodeIndex n : part->process.nodes) names.push_back(launch_.node(n).name);
+  std::ranges::stable_partition(names, [&](const std::string& name) { return name == child.crash_node(); });
+  return names;
+}
+
+std::string NodeProcesses::FateOf(const Child& child) const {
+  const Part* part = PartOf(child.name());
+  if (part == nullptr || !part->process.is_shared()) return child.Fate();
+  return fmt::format("of process '{}' {}", part->process.name, child.Fate());
 }
 
 std::uint32_t NodeProcesses::incarnation(const std::string& name) const {

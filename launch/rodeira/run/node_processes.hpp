@@ -11,11 +11,15 @@
 
 #include "common/core/base/result.hpp"
 #include "common/runtime/launch/launch.hpp"
+#include "common/runtime/launch/shared_process.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/run_command.hpp"
 
 namespace rodeira::cli {
+
+// The program that runs a process of a run, beside `rodeira` or absolute: a node's own, or that of shared processes.
+std::string ProgramOf(const launch::Launch& launch, const launch::NodeProcess& process);
 
 // The processes of a run on this PC: the clock, or its follower, and the nodes. Started, started again, ended.
 class NodeProcesses {
@@ -38,8 +42,13 @@ class NodeProcesses {
   };
   // Another incarnation of it, which learns from the nodes where the run stands; the old process is dead then.
   base::Status RestartClock(const ClocksPlace& place);
-  // Another incarnation of a node; the old process is dead then. False where the node is another PC's.
-  base::Result<bool> RestartNode(const std::string& name, std::uint32_t incarnation);
+  enum class Restarted {
+    kElsewhere,     // the node is another PC's
+    kAwaitsOthers,  // of the nodes that share its process: it is restarted when all are to be
+    kDone,
+  };
+  // Another incarnation of a node; the old process is dead once it is done.
+  base::Result<Restarted> RestartNode(const std::string& name, std::uint32_t incarnation);
 
   // All end: by themselves where the run ended in good order, or by force before two seconds have passed since
   // Ctrl-C.
@@ -51,6 +60,10 @@ class NodeProcesses {
   void Poll();
   Child& clock() { return children_.front(); }
   const std::vector<Child>& children() const { return children_; }  // the clock first
+  // The nodes of a child, the one that it crashed in first; empty for the clock.
+  std::vector<std::string> NodesOf(const Child& child) const;
+  // Child::Fate, to go on after "node 'x' ": it names a shared process.
+  std::string FateOf(const Child& child) const;
   // What the part of this name has written, through all its restarts; null for an unknown one.
   const PartLog* LogOf(const std::string& name) const;
 
@@ -66,6 +79,16 @@ class NodeProcesses {
   std::uint32_t domain_;
   std::uint32_t clocks_life_ = 0;
   bool has_nodes_ = false;
+  struct Part {
+    std::string child;  // name of the child
+    launch::NodeProcess process;
+  };
+  const Part* PartOf(std::string_view child) const;  // null: the clock
+  std::vector<std::string> CommandOf(const Part& part) const;
+  base::Status Start(const Part& part, Child* place);
+
+  std::vector<Part> parts_;                               // of this PC
+  std::map<std::string, std::uint32_t> wanted_;           // incarnations that the clock asks for, by node
   std::map<std::string, std::uint32_t> incarnations_;     // of nodes that were started again
   std::map<std::string, std::unique_ptr<PartLog>> logs_;  // by the child's name; outlive the children
   std::vector<Child> children_;

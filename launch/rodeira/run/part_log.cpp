@@ -5,6 +5,7 @@
 #include <spdlog/sinks/rotating_file_sink.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
@@ -30,8 +31,8 @@ spdlog::level::level_enum LevelOf(const std::string& line) {
 // Written by base::TraceCrashes, by a node that ends, and by Fast DDS: for the log and the report of the failure, too
 // much for a terminal.
 bool IsForLogAlone(const std::string& line) {
-  return line.starts_with(kCrash) || line.starts_with(dds::kLastWord) || line.starts_with("rodeira: Fast DDS: ") ||
-         (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+  return line.starts_with(kCrash) || line.starts_with(dds::kLastWord) || line.starts_with(dds::kLastWordOfNode) ||
+         line.starts_with("rodeira: Fast DDS: ") || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
 }
 
 // What base::TraceCrashes says of foreign code; empty if the line says nothing of it.
@@ -41,6 +42,15 @@ std::string CrashPlace(std::string_view line) {
   if (in == std::string_view::npos) return {};
   line.remove_prefix(in + 4);
   return std::string(line.substr(0, line.rfind("; backtrace:")));
+}
+
+// Of a process with several nodes; empty if the line says nothing of it.
+std::string CrashNode(std::string_view line) {
+  constexpr std::string_view kNode = "rodeira: crash: node '";
+  if (!line.starts_with(kNode) || !line.ends_with('\'')) return {};
+  line.remove_prefix(kNode.size());
+  line.remove_suffix(1);
+  return std::string(line);
 }
 
 // Null if the file cannot be opened.
@@ -77,20 +87,42 @@ void PartLog::Read(int descriptor) {
   std::fflush(stderr);
 }
 
+std::string PartLog::LastWordOf(const std::string& node) const {
+  const auto found =
+      std::ranges::find_if(last_words_, [&](const LastWord& word) { return word.node.empty() || word.node == node; });
+  return found == last_words_.end() ? "" : found->text;
+}
+
+bool PartLog::TakeLastWord(std::string_view line) {
+  if (line.starts_with(dds::kLastWord)) {
+    last_words_ = {{"", std::string(line.substr(dds::kLastWord.size()))}};
+    return true;
+  }
+  const auto end = line.find("': ");
+  if (!line.starts_with(dds::kLastWordOfNode) || end == std::string_view::npos) return false;
+  line.remove_prefix(dds::kLastWordOfNode.size());
+  const auto size = end - dds::kLastWordOfNode.size();
+  last_words_.push_back({std::string(line.substr(0, size)), std::string(line.substr(size + 3))});
+  return true;
+}
+
 void PartLog::Finish() {
   if (!rest_.empty()) Take(std::exchange(rest_, {}));
 }
 
 void PartLog::Take(std::string line) {
-  const bool is_last_word = line.starts_with(dds::kLastWord);
-  if (is_last_word) last_word_ = line.substr(dds::kLastWord.size());
+  const bool is_last_word = TakeLastWord(line);
   if (!is_opened_ && !is_last_word) {  // the run says the same: no file begins with it
     file_ = OpenFile(folder_, part_);
     is_opened_ = true;
   }
   if (file_) file_->log(LevelOf(line), line);
   if (!IsForLogAlone(line)) std::fprintf(stderr, "%s\n", line.c_str());
-  if (auto place = CrashPlace(line); !place.empty()) crash_place_ = std::move(place);
+  if (auto node = CrashNode(line); !node.empty()) {
+    crash_node_ = std::move(node);
+  } else if (auto place = CrashPlace(line); !place.empty()) {
+    crash_place_ = std::move(place);
+  }
   last_lines_.push_back(std::move(line));
   if (last_lines_.size() > kLastLines) last_lines_.pop_front();
 }

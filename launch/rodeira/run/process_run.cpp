@@ -94,9 +94,9 @@ class ProcessRun {
   base::Status RestartNode(const RunReport::Restart& wish) {
     const auto done = processes_.RestartNode(wish.node, wish.incarnation);
     if (!done) return done.error();
-    if (!done.value()) return {};
+    if (done.value() == NodeProcesses::Restarted::kElsewhere) return {};
     told_.erase(wish.node);
-    Tell(wish.reason + "; it is started again");
+    if (!wish.reason.empty()) Tell(wish.reason + "; it is started again");
     return {};
   }
 
@@ -138,14 +138,7 @@ class ProcessRun {
         return {};
       }
       for (const Child& child : processes_.children()) {
-        if (&child == &clock) continue;
-        if (!child.last_word().empty() || LeftByItself(child)) {
-          TellExit(child);
-        } else if (child.stopped() || child.ended()) {
-          TellClock(child);
-        } else {
-          told_.erase(child.name());  // it goes on
-        }
+        if (&child != &clock) LookAfter(child);
       }
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
@@ -190,23 +183,34 @@ class ProcessRun {
   static bool LeftByItself(const Child& child) {
     return child.ended() && child.exit_status() && *child.exit_status() <= 2 && !child.ended_by_foreign_code();
   }
+  void LookAfter(const Child& child) {
+    for (const std::string& node : processes_.NodesOf(child)) {
+      if (!child.LastWordOf(node).empty() || LeftByItself(child)) {
+        TellExit(child, node);
+      } else if (child.stopped() || child.ended()) {
+        TellClock(child, node);
+      } else {
+        told_.erase(node);  // it goes on
+      }
+    }
+  }
   // The node's last word; without one the node is lost. The clock knows whether the run goes on without it: a node may
   // leave before the clock's closing words are read here.
-  void TellExit(const Child& child) {
-    const std::uint32_t incarnation = processes_.incarnation(child.name());
-    if (!exits_told_.emplace(child.name(), incarnation).second) return;
-    const std::string word = child.last_word();
-    processes_.clock().Send(word.empty() ? fmt::format("lost {} {} {}", child.name(), incarnation, child.Fate())
-                                         : fmt::format("said {} {} {}", child.name(), incarnation, word));
+  void TellExit(const Child& child, const std::string& node) {
+    const std::uint32_t incarnation = processes_.incarnation(node);
+    if (!exits_told_.emplace(node, incarnation).second) return;
+    const std::string word = child.LastWordOf(node);
+    processes_.clock().Send(word.empty() ? fmt::format("lost {} {} {}", node, incarnation, processes_.FateOf(child))
+                                         : fmt::format("said {} {} {}", node, incarnation, word));
   }
   // Dead or stopped though the run is not over.
-  void TellClock(const Child& broken) {
-    if (report_.ended || !fault_.empty() || !told_.insert(broken.name()).second) return;
-    const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
+  void TellClock(const Child& broken, const std::string& name) {
+    if (report_.ended || !fault_.empty() || !told_.insert(name).second) return;
+    const std::string fate = processes_.FateOf(broken);
+    const launch::LaunchNode& node = launch_.node(launch_.roster().Find(name));
     if (node.recovery == lockstep::Policy::kStop)
-      Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
-    processes_.clock().Send(
-        fmt::format("lost {} {} {}", broken.name(), processes_.incarnation(broken.name()), broken.Fate()));
+      Fault(fmt::format("node '{}' {} at about step {}", name, fate, report_.step));
+    processes_.clock().Send(fmt::format("lost {} {} {}", name, processes_.incarnation(name), fate));
   }
   // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
   // number yet (0) is known to none: another one draws its own.

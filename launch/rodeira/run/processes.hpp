@@ -43,8 +43,10 @@ class Child {
   std::string Fate() const;
   // It said so before it ended (base::ForeignCall).
   bool ended_by_foreign_code() const { return ended_ && log_ != nullptr && !log_->crash_place().empty(); }
-  // What it has said of its own end (PartLog::last_word); empty: nothing, or it has no log.
-  std::string last_word() const { return log_ == nullptr ? "" : log_->last_word(); }
+  // What one of its nodes has said of its own end (PartLog::LastWordOf); empty: nothing, or it has no log.
+  std::string LastWordOf(const std::string& node) const { return log_ == nullptr ? "" : log_->LastWordOf(node); }
+  // Of several nodes the one that it crashed in (PartLog::crash_node); empty: not known.
+  std::string crash_node() const { return log_ == nullptr ? "" : log_->crash_node(); }
   int out() const { return out_; }           // to read from; -1 without pipes
   void Send(const std::string& line) const;  // to its standard input
   void CloseInput();

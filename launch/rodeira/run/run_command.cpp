@@ -15,11 +15,13 @@
 #include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "common/runtime/launch/shared_process.hpp"
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/launch_path.hpp"
+#include "launch/rodeira/run/node_processes.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/process_run.hpp"
 #include "launch/rodeira/run/resolve_frames.hpp"
@@ -37,18 +39,22 @@ std::string FreshRunName() {
 
 // A node without its program would end the run after its start: it is refused before.
 base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& placement) {
-  for (const launch::LaunchNode& node : launch.nodes()) {
+  for (const launch::NodeProcess& process : launch::ProcessesOf(launch)) {
+    const launch::LaunchNode& node = launch.node(process.nodes.front());
     if (!placement.Has(node)) continue;
-    const std::string program = base::FindProgram(node.kind->program).string();
+    const std::string program = base::FindProgram(ProgramOf(launch, process)).string();
     struct stat found {};
     if (::stat(program.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) {
       errno = EISDIR;
     } else if (::access(program.c_str(), X_OK) == 0) {
       continue;
     }
+    const std::string advice =
+        process.is_shared()
+            ? fmt::format("--set nodes.{}.process=~ takes the node out of process '{}'", node.name, process.name)
+            : fmt::format("--set nodes.{}.kind=none leaves the node out", node.name);
     return base::WrongInput("system.cannot_start_program",
-                            fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
-                                        std::strerror(errno), node.name),
+                            fmt::format("cannot start {}: {}; {}", program, std::strerror(errno), advice),
                             fmt::format("node '{}'", node.name));
   }
   return {};

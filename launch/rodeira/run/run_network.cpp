@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/runtime/dds/network_state.hpp"
+#include "common/runtime/launch/shared_process.hpp"
 #include "launch/rodeira/run/host_hold.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
@@ -19,9 +20,10 @@ constexpr std::uint32_t kMinSegmentKib = 1024;
 double Megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
 // The clock and the nodes. A process that is started again finds the files of the dead one, which others still use.
-int ProcessesOf(const launch::Launch& launch, const Placement& placement) {
-  const auto nodes =
-      std::ranges::count_if(launch.nodes(), [&](const launch::LaunchNode& node) { return placement.Has(node); });
+int CountProcesses(const launch::Launch& launch, const Placement& placement) {
+  const auto nodes = std::ranges::count_if(launch::ProcessesOf(launch), [&](const launch::NodeProcess& process) {
+    return placement.Has(launch.node(process.nodes.front()));
+  });
   return static_cast<int>(nodes) + (launch.keeps_for_restarts() ? 3 : 1);
 }
 
@@ -96,7 +98,7 @@ base::Result<RunNetwork> RunNetwork::Prepare(const RunOptions& options, const Pl
   if (const auto other = OtherUserOf(network.domain, place)) {
     status = UseUdp(launch, *other, network);
   } else {
-    status = FitSharedMemory(launch, ProcessesOf(launch, placement), place.folder, network);
+    status = FitSharedMemory(launch, CountProcesses(launch, placement), place.folder, network);
   }
   if (!status) return status.error();
   return network;

@@ -58,7 +58,7 @@ void RunReport::Take(std::string_view line) {
     const auto words = Words(line.substr(8), 2);
     Restart restart{words[0], 0, words[2]};
     std::from_chars(words[1].data(), words[1].data() + words[1].size(), restart.incarnation);
-    recovered.push_back(restart.reason + "; started again");
+    if (!restart.reason.empty()) recovered.push_back(restart.reason + "; started again");
     wanted.push_back(std::move(restart));
   } else if (line.starts_with("paused ")) {
     paused_by.push_back(Words(line.substr(7), 1)[1]);

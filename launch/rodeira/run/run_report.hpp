@@ -44,7 +44,7 @@ struct RunReport {
   struct Restart {
     std::string node;
     std::uint32_t incarnation = 0;
-    std::string reason;
+    std::string reason;  // empty: it shares the process of another one
   };
   std::vector<Restart> wanted;  // taken by the part that starts processes
   std::vector<std::string> recovered;

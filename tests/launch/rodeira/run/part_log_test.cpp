@@ -88,18 +88,33 @@ TEST_F(PartLogTest, RemembersTheForeignCodeOfACrashUntilTheNextProcess) {
 }
 
 TEST_F(PartLogTest, TheLastWordOfANodeIsKeptUntilTheNextProcessButNotPrinted) {
-  EXPECT_EQ(log_->last_word(), "");
+  EXPECT_EQ(log_->LastWordOf("traffic"), "");
   EXPECT_EQ(Write("rodeira: more\nrodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"), "rodeira: more\n");
-  EXPECT_EQ(log_->last_word(), "refused 0 a.yaml:3: unknown key 'x'");
+  EXPECT_EQ(log_->LastWordOf("traffic"), "refused 0 a.yaml:3: unknown key 'x'");
   EXPECT_THAT(File(), HasSubstr("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"));
   log_->ForgetEnd();
-  EXPECT_EQ(log_->last_word(), "");
+  EXPECT_EQ(log_->LastWordOf("traffic"), "");
+}
+
+// Nodes that share a process have one log.
+TEST_F(PartLogTest, OfASharedProcessEachNodesLastWordAndTheOneThatCrashedAreKnown) {
+  EXPECT_EQ(Write("rodeira: end of node 'a': lost 7 it's: over\nrodeira: end of node 'b c': refused 0 wrong\n"
+                  "rodeira: crash: node 'a'\nrodeira: crash: SIGSEGV; backtrace:\n"),
+            "");
+  EXPECT_EQ(log_->LastWordOf("a"), "lost 7 it's: over");
+  EXPECT_EQ(log_->LastWordOf("b c"), "refused 0 wrong");
+  EXPECT_EQ(log_->LastWordOf("b"), "");
+  EXPECT_EQ(log_->crash_node(), "a");
+  EXPECT_EQ(log_->crash_place(), "");
+  log_->ForgetEnd();
+  EXPECT_EQ(log_->LastWordOf("a"), "");
+  EXPECT_EQ(log_->crash_node(), "");
 }
 
 // A run that is refused leaves nothing.
 TEST_F(PartLogTest, ALastWordAloneMakesNoFile) {
   EXPECT_EQ(Write("rodeira: end: refused 0 a.yaml:3: unknown key 'x'\n"), "");
-  EXPECT_EQ(log_->last_word(), "refused 0 a.yaml:3: unknown key 'x'");
+  EXPECT_EQ(log_->LastWordOf("traffic"), "refused 0 a.yaml:3: unknown key 'x'");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "logs"));
 }
 
