@@ -4,6 +4,7 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
@@ -15,6 +16,8 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -33,12 +36,22 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 
-class FastWriter final : public Writer {
+class FastWriter final : public Writer, public fdds::DataWriterListener {
  public:
-  FastWriter(fdds::Publisher* publisher, fdds::DataWriter* writer, std::string topic)
-      : publisher_(publisher), writer_(writer), topic_(std::move(topic)) {}
-  ~FastWriter() override { publisher_->delete_datawriter(writer_); }
+  FastWriter(fdds::Publisher* publisher, std::string topic, bool is_kept)
+      : publisher_(publisher), topic_(std::move(topic)), is_kept_(is_kept) {}
+  ~FastWriter() override {
+    if (writer_ == nullptr) return;
+    writer_->set_listener(nullptr);
+    publisher_->delete_datawriter(writer_);
+  }
+  void Begin(fdds::DataWriter* writer) { writer_ = writer; }
+
+  void on_publication_matched(fdds::DataWriter*, const fdds::PublicationMatchedStatus& status) override {
+    readers_ = status.current_count;
+  }
   base::Status Write(const base::Bytes& payload) override {
+    if (!is_kept_ && readers_ == 0) return {};  // nothing keeps it for a reader that comes later
     RawSample sample;
     sample.to_send = &payload;
     if (!writer_->write(&sample))
@@ -48,8 +61,10 @@ class FastWriter final : public Writer {
 
  private:
   fdds::Publisher* publisher_;
-  fdds::DataWriter* writer_;
+  fdds::DataWriter* writer_ = nullptr;
   std::string topic_;
+  const bool is_kept_;
+  std::atomic<std::int32_t> readers_ = 0;
 };
 
 class FastReader final : public Reader, public fdds::DataReaderListener {
@@ -100,9 +115,12 @@ class FastParticipant final : public Participant {
     times.heartbeatPeriod = Duration_t{0, 3u * kNanosecondsPerMillisecond};
     times.nackResponseDelay = Duration_t{0, 0};
     times.nackSupressionDuration = Duration_t{0, 0};
-    fdds::DataWriter* writer = publisher_->create_datawriter(made_topic, qos);
-    if (writer == nullptr) return Refused(topic);
-    return std::unique_ptr<Writer>(std::make_unique<FastWriter>(publisher_, writer, std::string(topic)));
+    auto writer = std::make_unique<FastWriter>(publisher_, std::string(topic), IsKept(delivery));
+    fdds::DataWriter* made =
+        publisher_->create_datawriter(made_topic, qos, writer.get(), fdds::StatusMask::publication_matched());
+    if (made == nullptr) return Refused(topic);
+    writer->Begin(made);
+    return std::unique_ptr<Writer>(std::move(writer));
   }
 
   base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery,
