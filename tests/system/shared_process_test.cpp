@@ -115,10 +115,13 @@ TEST_P(InGroups, DrawnAtRandomARunHasTheBitsOfSeparateProcesses) {
 
 INSTANTIATE_TEST_SUITE_P(
     LaunchFiles, InGroups,
-    testing::Values(
-        Drawn{"first_drive.yaml", "3", {"road", "driver", "ego", "recorder"}, {}},
-        Drawn{"demo.yaml", "2", {"road", "driver", "ego", "traffic", "recorder"}, {"--set", "nodes.view.kind=none"}},
-        Drawn{"scripted.yaml", "2", {"road", "driver", "ego", "traffic", "story", "recorder"}, {}}),
+    testing::Values(Drawn{"first_drive.yaml", "3", {"road", "driver", "ego", "recorder"}, {}},
+                    Drawn{"demo.yaml",
+                          "2",
+                          {"road", "driver", "ego", "traffic", "recorder", "view"},
+                          {"--set", "nodes.view.config.quality=low", "--set", "nodes.view.config.width_px=160", "--set",
+                           "nodes.view.config.height_px=96", "--set", "nodes.view.config.frames.times_s=[1]"}},
+                    Drawn{"scripted.yaml", "2", {"road", "driver", "ego", "traffic", "story", "recorder"}, {}}),
     [](const auto& drawn) { return std::filesystem::path(drawn.param.launch).stem().string(); });
 
 // A part that dies takes the nodes of its process with it; all of them are started again and come to the same bits.

@@ -40,8 +40,8 @@ bool TakeNumber(std::string_view& text, Number& number) {
 void WriteLastWord(const lockstep::Report& report, std::string_view node) {
   if (!lockstep::IsFault(report.phase)) return;
   const std::string begin = node.empty() ? std::string(kLastWord) : fmt::format("{}{}': ", kLastWordOfNode, node);
-  const std::string line = fmt::format("{}{} {} {}\n", begin, lockstep::PhaseName(report.phase), report.progress,
-                                       OneLine(report.message));
+  const std::string line =
+      fmt::format("{}{} {} {}\n", begin, lockstep::PhaseName(report.phase), report.progress, OneLine(report.message));
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
