@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/launch/lab.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/runtime/launch/agreement.hpp"
 #include "common/runtime/launch/lab_schema.hpp"
 #include "tests/common/core/config/every_key.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -26,10 +28,11 @@ nodes:
   b: {kind: empty}
 )";
 
-std::string Refusal(const std::string& text) {
+base::Error ErrorOf(const std::string& text) {
   const auto lab = Lab::Parse(text, "dir/rig.yaml");
-  return lab.ok() ? "" : lab.error().Text();
+  return lab.ok() ? base::Error() : lab.error();
 }
+std::string Refusal(const std::string& text) { return ErrorOf(text).Text(); }
 std::string Changed(const std::string& old_text, const std::string& new_text) {
   std::string text = kLab;
   return text.replace(text.find(old_text), old_text.size(), new_text);
@@ -102,11 +105,11 @@ TEST(Lab, RefusesWhatIsWrongWithPlaceAndNearestName) {
             "dir/rig.yaml:8: hosts 'left' and 'right' have the same address 192.168.10.1");
   EXPECT_EQ(Refusal(Changed("address: 192.168.10.2", "adress: 192.168.10.2")),
             "dir/rig.yaml:8: unknown key 'hosts.right.adress'; did you mean 'address'?");
-  EXPECT_EQ(Refusal(Changed("domain: 42", "domain: 233")),
-            "dir/rig.yaml:2: 'domain' is 233; a whole number from 0 to 232 was expected");
+  EXPECT_THAT(ErrorOf(Changed("domain: 42", "domain: 233")),
+              IsError("config.out_of_range", "dir/rig.yaml:2: … 'domain' … 233 … 0 … 232"));
   EXPECT_EQ(Refusal(Changed("run: rig", "transport: shared_memory")),
             "dir/rig.yaml:3: 'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
-  EXPECT_EQ(Refusal("rodeira: lab/1\ndomain: 1\n"), "dir/rig.yaml:1: key 'hosts' is missing; a mapping was expected");
+  EXPECT_THAT(ErrorOf("rodeira: lab/1\ndomain: 1\n"), IsError("config.missing_key", "dir/rig.yaml:1: … 'hosts'"));
   const Lab lab = Lab::Parse(kLab, "dir/rig.yaml").value();
   EXPECT_EQ(lab.Host("lefft").error().Text(), "dir/rig.yaml: there is no host 'lefft'; did you mean 'left'?");
   const Launch launch = Launch::Parse(kLaunch, "dir/empty.yaml", {{"nodes.b.host", "lft"}}).value();
@@ -139,12 +142,11 @@ TEST(Discovery, OfALaunchFile) {
             50u);
   EXPECT_EQ(parse("{kind: server, address: 10.0.0.1}").value().discovery().port, Discovery::kServerPort);
   EXPECT_EQ(refusal("{kind: server}"), "x.yaml:6: key 'discovery.address' is missing; a text was expected");
-  EXPECT_EQ(refusal("{kind: server, address: 10.0.0.1, port: 70000}"),
-            "x.yaml:6: 'discovery.port' is 70000; a whole number from 1 to 65535 was expected");
+  EXPECT_THAT(refusal("{kind: server, address: 10.0.0.1, port: 70000}"),
+              Names("x.yaml:6: … 'discovery.port' … 70000 … 1 … 65535"));
   EXPECT_EQ(refusal("{kind: peers, addresses: []}"),
             "x.yaml:6: 'addresses' is empty; the address of each PC of the run was expected");
-  EXPECT_EQ(refusal("{kind: peers, addresses: [left]}"),
-            "x.yaml:6: address 'left' was found; an IPv4 address as 192.168.10.1 was expected");
+  EXPECT_THAT(refusal("{kind: peers, addresses: [left]}"), Names("x.yaml:6: … address 'left'"));
   const auto shared = Launch::Parse(kLaunch + "discovery: {kind: server, address: 10.0.0.1}\n", "x.yaml");
   ASSERT_FALSE(shared.ok());
   EXPECT_EQ(shared.error().Text(), "x.yaml:5: 'discovery.kind' is 'server', which needs 'transport: udp'");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/launch/launch.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "common/runtime/launch/launch_schema.hpp"
 #include "tests/common/core/config/every_key.hpp"
+#include "tests/names.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::launch {
@@ -24,9 +26,12 @@ nodes:
   recorder: {kind: recorder}
 )";
 
-std::string Refusal(const std::string& text, const Overrides& overrides = {}) {
+base::Error ErrorOf(const std::string& text, const Overrides& overrides = {}) {
   const auto launch = Launch::Parse(text, "dir/drive.yaml", overrides);
-  return launch.ok() ? "" : launch.error().Text();
+  return launch.ok() ? base::Error() : launch.error();
+}
+std::string Refusal(const std::string& text, const Overrides& overrides = {}) {
+  return ErrorOf(text, overrides).Text();
 }
 
 TEST(Launch, WiresAllNodesByTopic) {
@@ -135,21 +140,23 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(Refusal(text + "  b: {kind: input}\n"),
             "dir/drive.yaml:7: node 'ego' takes 'controls' from one node, but 2 publish it (driver, b); say which "
             "under 'inputs'");
-  EXPECT_EQ(Refusal(text, {{"nodes.ego.inputs.controls", "[drivr]"}}),
-            "dir/drive.yaml: node 'ego', input 'rodeira/controls': there is no node 'drivr'; did you mean 'driver'?");
+  EXPECT_THAT(
+      ErrorOf(text, {{"nodes.ego.inputs.controls", "[drivr]"}}),
+      IsError("launch.unknown_node", "dir/drive.yaml: … node 'ego', input 'rodeira/controls': … 'drivr' … 'driver'"));
   EXPECT_EQ(Refusal(text + "sed: 4\n"), "dir/drive.yaml:10: unknown key 'sed'; did you mean 'seed'?");
   EXPECT_EQ(Refusal(text, {{"nodes.traffic.period_s", "0.0105"}}),
             "dir/drive.yaml:8: 'period_s' is 0.0105 s; a multiple of the base step (0.001 s) was expected");
   EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"),
             "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
-  EXPECT_EQ(Refusal("rodeira: launch/1\n"), "dir/drive.yaml:1: key 'nodes' is missing; a mapping was expected");
+  EXPECT_THAT(ErrorOf("rodeira: launch/1\n"), IsError("config.missing_key", "dir/drive.yaml:1: … 'nodes'"));
   EXPECT_EQ(Refusal("rodeira: launch/1\nnodes: {ego: {kind: vehicle}}\n"),
             "dir/drive.yaml:2: node 'ego' needs 'controls', but no node publishes it");
   EXPECT_EQ(Refusal(text + "pace: rael\n"),
             "dir/drive.yaml:10: 'pace' is 'rael'; max, real or a positive number was expected");
   EXPECT_EQ(Refusal(text + "pace: -1\n"),
             "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
-  EXPECT_EQ(Refusal(text, {{"base_step_s", "fast"}}), "dir/drive.yaml: 'base_step_s' is 'fast'; a number was expected");
+  EXPECT_THAT(ErrorOf(text, {{"base_step_s", "fast"}}),
+              IsError("config.wrong_type", "dir/drive.yaml: … 'base_step_s' … 'fast'"));
 }
 
 // A generated file for each declared key. A kind of node needs others; a kind of discovery needs UDP and an address.

@@ -14,6 +14,7 @@
 #include "common/runtime/launch/used_topics.hpp"
 #include "idl/topics.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -228,9 +229,7 @@ TEST_F(ManifestFiles, WrongOutputsAreRefused) {
   EXPECT_THAT(Eye(", idl: gaze.idl", ""), HasSubstr("eye.yaml:4: key 'idl' of output 'lab/gaze' is missing"));
   EXPECT_THAT(Eye("gaze.idl", "gase.idl"), HasSubstr("eye.yaml:4: gase.idl: there is no such file"));
   EXPECT_THAT(Eye("gaze.idl", "eye.yaml"), HasSubstr("a file NAME.idl was expected"));
-  EXPECT_THAT(
-      Eye("lab::Gaze", "lab::Gase"),
-      HasSubstr("eye.yaml:4: gaze.idl: the type 'lab::Gase' is not in its IDL text; did you mean 'lab::Gaze'?"));
+  EXPECT_THAT(Eye("lab::Gaze", "lab::Gase"), Names("eye.yaml:4: gaze.idl: … 'lab::Gase' … 'lab::Gaze'"));
   for (const char* type : {"lab::Plain", "lab::Late"})
     EXPECT_THAT(Eye("lab::Gaze", type),
                 HasSubstr("eye.yaml:4: the first member of '" + std::string(type) + "' is not the sample header"));

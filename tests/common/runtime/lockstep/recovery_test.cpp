@@ -2,6 +2,7 @@
 // A part of a run dies at any moment: what the others see and what is recorded is that of a run without deaths.
 #include "common/runtime/lockstep/recovery.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -12,6 +13,7 @@
 #include "common/runtime/lockstep/wait_chain.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
 #include "tests/common/runtime/lockstep/recorded.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::lockstep {
 namespace {
@@ -327,7 +329,7 @@ TEST_F(RecoveryOfOne, TheArchiveHasNoHolesAndRefusesAContradiction) {
   ASSERT_TRUE(archive.Add(sample(4, 7)).ok()) << "said again";
   const auto status = archive.Add(sample(4, 8));
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().Text(), "car.a: two different samples are valid at step 4");
+  EXPECT_THAT(status.error(), IsError("run.two_samples", "car.a: … step 4"));
   archive.Forget(10);  // the recorder's activation at 10 sees the events in (5, 10]
   EXPECT_EQ(archive.size(), 0u);
   ASSERT_TRUE(archive.Add(sample(5, 1)).ok());

@@ -2,9 +2,11 @@
 // The operator's commands against a clock, in simulated wall time.
 #include "common/runtime/lockstep/run_controller.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/runtime/lockstep/named_node.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::lockstep {
 namespace {
@@ -119,7 +121,7 @@ TEST_F(ConductorTest, ARestartOfAnUnknownNodeIsWrongInputAtAnyTime) {
     const auto unknown = restart("b");
     ASSERT_FALSE(unknown.ok());
     EXPECT_EQ(unknown.error().exit_status(), 2);
-    EXPECT_EQ(unknown.error().Text(), "restart: there is no node 'b'; known are a");
+    EXPECT_THAT(unknown.error(), IsError("launch.unknown_node", "restart: … 'b' … known are a"));
     const auto known = restart("a");
     ASSERT_FALSE(known.ok()) << "a run of one process";
     EXPECT_EQ(known.error().exit_status(), 1);
@@ -132,7 +134,7 @@ TEST(NamedNodeTest, TheNearestNameIsGiven) {
                                         {"driver", "t", Role::kStepped, 1, 0, 0, {"x"}, {}}})
                             .value();
   EXPECT_EQ(NamedNode(roster, "driver").value(), 1u);
-  EXPECT_EQ(NamedNode(roster, "drivr").error().Text(), "restart: there is no node 'drivr'; did you mean 'driver'?");
+  EXPECT_THAT(NamedNode(roster, "drivr").error(), IsError("launch.unknown_node", "restart: … 'drivr' … 'driver'"));
 }
 
 TEST_F(ConductorTest, AStopBeforeTheFirstStepAborts) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/lockstep/watchdog.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/names.hpp"
 
 namespace rodeira::lockstep {
 namespace {
@@ -137,7 +140,7 @@ TEST_F(WatchdogTest, SaysWhatAMissingNodeWaitsFor) {
     fault = dog_.Check(now, grant_);
   }
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view' (waits for the road server's world since 4.9 s)");
+  EXPECT_THAT(fault->reason, Names("5 s … 'view' … (waits for the road server's world since 4.9 s)"));
 }
 
 TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
@@ -151,7 +154,7 @@ TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
     }
   }
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason, "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
+  EXPECT_THAT(fault->reason, Names("node 'car' … 3.05 s … step 7: "));
 }
 
 // On a PC with too much work the clock comes late again and again: what it did not hear then is no node's silence.
@@ -232,8 +235,7 @@ TEST_F(WatchdogTest, ANodeThatNeverSpeaksAgainIsNamedAtLast) {
   }
   dog_.Heard(back, now);
   ASSERT_TRUE(dog_.Check(now, grant_));
-  EXPECT_EQ(dog_.Check(now, grant_)->reason,
-            "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
+  EXPECT_THAT(dog_.Check(now, grant_)->reason, Names("node 'car' … 3.05 s … step 7: "));
 }
 
 TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
@@ -247,7 +249,7 @@ TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
   }
   const auto fault = dog_.Check(6050, grant_);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view' (no message from it)");
+  EXPECT_THAT(fault->reason, Names("5 s … 'view' … (no message from it)"));
 }
 
 TEST_F(WatchdogTest, ASuspendedNodeIsNotNamedUntilItGoesOn) {

@@ -12,6 +12,7 @@
 #include "common/core/base/files.hpp"
 #include "common/world/network/marking.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -168,11 +169,10 @@ TEST(OpenDrive, WrongThingsAreNamedWithTheirPlace) {
     return Errors(Document(road.Text()));
   };
   const auto one = [](const char* text) { return testing::ElementsAre(HasSubstr(text)); };
-  EXPECT_THAT(
-      with([](RoadText& r) {
-        r.geometry = R"(<geometry s="0" x="zero" y="0" hdg="0" length="100"><line/></geometry>)";
-      }),
-      one("f.xodr:6: xml.attribute: road 1, s 0: attribute 'x' of <geometry> is 'zero'; a number was expected"));
+  EXPECT_THAT(with([](RoadText& r) {
+                r.geometry = R"(<geometry s="0" x="zero" y="0" hdg="0" length="100"><line/></geometry>)";
+              }),
+              testing::ElementsAre(Names("f.xodr:6: xml.attribute: road 1, s 0: … 'x' of <geometry> … 'zero'")));
   EXPECT_THAT(
       with([](RoadText& r) { r.geometry = R"(<geometry s="0" y="0" hdg="0" length="100"><line/></geometry>)"; }),
       one("<geometry> has no attribute 'x'"));
@@ -213,7 +213,7 @@ TEST(OpenDrive, WrongThingsAreNamedWithTheirPlace) {
   EXPECT_THAT(Errors("<OpenDRIVE><header revMajor=\"2\" revMinor=\"0\"/>" + RoadText().Text() + "</OpenDRIVE>"),
               one("this is OpenDRIVE 2.0; 1.4 to 1.8 was expected"));
   EXPECT_THAT(Errors("<OpenDRIVE>\n<road>\n</OpenDRIVE>"), one("f.xodr:3: this is no XML"));
-  EXPECT_THAT(Errors("<OpenSCENARIO/>"), one("the outermost element is <OpenSCENARIO>; <OpenDRIVE> was expected"));
+  EXPECT_THAT(Errors("<OpenSCENARIO/>"), testing::ElementsAre(Names("<OpenSCENARIO> … <OpenDRIVE>")));
   EXPECT_THAT(Errors(Document(RoadText().Text() + RoadText().Text())), one("ids.id_unique_in_class: road 1"));
 }
 
@@ -287,9 +287,8 @@ TEST(OpenDrive, ALengthThatIsNoneIsToldOnce) {
     return said;
   };
   const std::string road = "<road id=\"1\" length=\"100\"", element = "hdg=\"0\" length=\"100\"";
-  EXPECT_THAT(
-      errors_of(road, "<road id=\"1\" length=\"abc\""),
-      testing::ElementsAre("xml.attribute: road 1: attribute 'length' of <road> is 'abc'; a number was expected"));
+  EXPECT_THAT(errors_of(road, "<road id=\"1\" length=\"abc\""),
+              testing::ElementsAre(Names("xml.attribute: road 1: … 'length' of <road> … 'abc'")));
   EXPECT_THAT(errors_of(road, "<road id=\"1\""),
               testing::ElementsAre("xml.attribute: road 1: <road> has no attribute 'length'"));
   EXPECT_THAT(errors_of(road, "<road id=\"1\" length=\"-5\""),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -69,8 +70,7 @@ TEST(Stations, OfALaneItIsItsSectionThatCounts) {
 <center><lane id="0" type="none"/></center><right>)" +
       LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="40" max="10"/>)");
   EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
-              ElementsAre("road.lane.speed.s_offset: road 1, lane -1, s 0: <speed> begins at sOffset 60, behind the "
-                          "end of its lane section (50 m): it counts nowhere"));
+              ElementsAre(Names("road.lane.speed.s_offset: road 1, lane -1, s 0: … <speed> … sOffset 60 … (50 m)")));
 }
 
 TEST(Stations, AFirstRecordBehindTheBeginningIsToldOnlyWhereItSaysSomething) {
@@ -103,9 +103,8 @@ TEST(Stations, ARepeatOfLessThanNothingIsAnError) {
   RoadText road;
   road.more =
       R"(<objects><object id="a" type="tree" s="9" t="5"><repeat s="9" length="-5" distance="1"/></object></objects>)";
-  EXPECT_THAT(
-      WhatIsSaidOf(road.Text()).errors,
-      ElementsAre("road.object.repeat.length: road 1, s 9: <repeat> has a length of -5; 0 or more was expected"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).errors,
+              ElementsAre(Names("road.object.repeat.length: road 1, s 9: … <repeat> … -5; 0 ")));
 }
 
 TEST(Stations, AnIdThatStandsTwiceIsToldWithTheFirstPlace) {

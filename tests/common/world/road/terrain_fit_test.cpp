@@ -9,6 +9,7 @@
 #include "common/world/road/world.hpp"
 #include "common/world/road/world_report.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -63,11 +64,10 @@ TEST(TerrainFit, AVoidOfAnElevationFileIsNoTerrain) {
   EXPECT_EQ(problem(180.0, ""), "none");  // to 240.5 m
   const std::string place = (folder.path() / "w.yaml").string() + ":7: ";
   // The cell from 245 to 255 m has heights on one side only, so it is no ground: from s = 184.5 m on.
-  EXPECT_EQ(problem(280.0, ""),
-            place + "road 'a' leaves the terrain at s = 185 m: its left edge lies at (194.3, 245.5)");
+  EXPECT_THAT(problem(280.0, ""), Names(place + " … 'a' … s = 185 m … left … (194.3, 245.5)"));
   EXPECT_EQ(problem(280.0, "    bridges: [{from_s_m: 183.5, to_s_m: 216}]\n"), "none");
-  EXPECT_EQ(problem(340.0, "    bridges: [{from_s_m: 183.5, to_s_m: 216}]\n"),
-            place + "road 'a' leaves the terrain at s = 335 m: its left edge lies at (194.3, 395.5)");
+  EXPECT_THAT(problem(340.0, "    bridges: [{from_s_m: 183.5, to_s_m: 216}]\n"),
+              Names(place + " … 'a' … s = 335 m … left … (194.3, 395.5)"));
 }
 
 // Heights in a ring about a void, and no start: the car stands on the ground nearest to the middle.

@@ -21,6 +21,7 @@
 #include "tests/common/world/road/sample_world.hpp"
 #include "tests/common/world/surface/made_crg.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::road {
@@ -323,8 +324,7 @@ TEST_F(WorldReport, AnotherVersionIsToldAlone) {
   ASSERT_TRUE(base::WriteWhole(folder_ / "v.yaml", "rodeira: world/3\nname: c\nearth: {}\n").ok());
   const auto problems = WorldProblems(folder_ / "v.yaml");
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_THAT(problems[0].Text(),
-              HasSubstr("v.yaml:1: 'rodeira' is 'world/3'; a world file of this program says 'world/2' or 'world/1'"));
+  EXPECT_THAT(problems[0], IsError("config.other_version", "v.yaml:1: … 'world/3' … 'world/2' … 'world/1'"));
 }
 
 // A measured surface 2.1 m over the height that it is laid on, and one that is laid where it belongs.

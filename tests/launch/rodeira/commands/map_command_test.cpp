@@ -171,8 +171,7 @@ TEST(MapCommand, WritesAWorldOfThisProject) {
   ASSERT_TRUE(base::WriteWhole(folder.path() / "mine.xodr", "mine").ok());
   const Said kept = Asked({"convert", kCrossing, folder.path() / "mine.yaml"});
   EXPECT_EQ(kept.status, 2);
-  EXPECT_THAT(kept.errors,
-              HasSubstr("mine.xodr: this file is there already and is not this world's; another name was expected"));
+  EXPECT_THAT(kept.errors, HasSubstr("mine.xodr: this file is there already"));
   EXPECT_EQ(base::ReadText(folder.path() / "mine.xodr").value(), "mine");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "mine.yaml"));
 }

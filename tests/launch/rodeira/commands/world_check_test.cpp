@@ -12,6 +12,7 @@
 #include "tests/common/world/surface/made_crg.hpp"
 #include "tests/launch/rodeira/commands/world_fixture.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
@@ -41,8 +42,7 @@ TEST(WorldCheck, StrictlyAsAsamsOwnToleranceAsks) {
   const system_test::Ended strict =
       system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string(), "--strict"});
   EXPECT_EQ(strict.status, 2) << strict.out;
-  EXPECT_THAT(strict.out, HasSubstr("gap.xodr:6: road.geometry.contact_point: road 1, s 40: a gap of 0.0015 m to the "
-                                    "element before; at most 1e-06 m was expected\n"));
+  EXPECT_THAT(strict.out, Names("gap.xodr:6: road.geometry.contact_point: road 1, s 40: … 0.0015 m … 1e-06 m"));
   const fs::path world = folder.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n");
   const system_test::Ended other =
       system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
@@ -72,7 +72,7 @@ TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
       check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
   EXPECT_EQ(missing.status, 0);
   EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_THAT(missing.out, HasSubstr("there is no such file; did you mean 'bumps.crg'?"));
+  EXPECT_THAT(missing.out, Names("s.xodr:8: rodeira.surface.file: … 'bumps.crg'"));
   const fs::path file = folder.path() / "s.xodr", repaired = folder.path() / "repaired.xodr";
   const auto again = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {system_test::Bin("rodeira"), "world", "check"});
@@ -86,10 +86,7 @@ TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   const system_test::Ended mode =
       check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
   EXPECT_EQ(mode.status, 2);
-  EXPECT_THAT(
-      mode.out,
-      HasSubstr(
-          "s.xodr:8: road 1, s 0, 'bumps.crg': 'attachd' is no mode of a measured surface; did you mean 'attached'?"));
+  EXPECT_THAT(mode.out, Names("s.xodr:8: road 1, s 0, 'bumps.crg': … 'attachd' … 'attached'"));
   const system_test::Ended beyond =
       check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
   EXPECT_EQ(beyond.status, 0);

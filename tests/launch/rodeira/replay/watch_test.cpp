@@ -12,6 +12,7 @@
 #include "nodes/view/frame/surface.hpp"
 #include "tests/launch/rodeira/replay/watch_fixture.hpp"
 #include "tests/long_form.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::cli {
@@ -208,12 +209,10 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
               HasSubstr("did you mean 'medium'?"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "6.014"}), HasSubstr("--at 6.014 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "-1"}), HasSubstr("--at -1 s was found"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.0005"}),
-              HasSubstr("1.0005 s is no multiple of the base step of 0.001 s"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.0005"}), Names("1.0005 s … base step of 0.001 s"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.002"}),
               HasSubstr("a multiple of its period of 0.004 s was expected"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--follow", "egg"}),
-              HasSubstr("--follow: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--follow", "egg"}), Names("--follow: … 'egg' … 'ego'"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--camera", "drivr"}),
               HasSubstr("did you mean 'driver'?"));
   for (const char* size : {"10x10", "800", "800x", "x", "800x600x1", "99999999999999x5"}) {
