@@ -59,13 +59,15 @@ class TrafficModel {
                                          std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others);
 
+  // One step of dt_s seconds. `others`: rectangles in W of the vehicles that are not agents.
   void Step(double dt_s, std::span<const driver::Footprint> others);
 
+  // An id of an agent, here and below, is below vehicles(): a larger one is a caller's fault.
   // A scenario's commands, from the next step on until the agent leaves the road or is released. An agent that waits to
   // enter obeys when it has entered.
   void Brake(std::uint32_t id,
-             double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
-  void CapSpeed(std::uint32_t id, double speed_mps);  // never faster
+             double deceleration_mps2);  // above 0; at exactly this rate down to rest, and stay; harder where it must
+  void CapSpeed(std::uint32_t id, double speed_mps);  // above 0; never faster
   // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as
   // soon as the lane beside is free.
   void CommandOvertake(std::uint32_t id);
@@ -89,7 +91,8 @@ class TrafficModel {
   // of itself.
   std::optional<std::uint32_t> LeaderOf(const driver::Footprint& other) const;
 
-  // Those on the road, driving or struck, by ascending id.
+  // All agents on the road, including crashed ones, by ascending id: poses in W after the last step. The next step
+  // replaces them.
   const std::vector<AgentPose>& poses() const;
   const AgentTraits& traits(std::uint32_t id) const;
   const Agent& agent(std::uint32_t id) const;
@@ -98,8 +101,8 @@ class TrafficModel {
   // The cars with full physics, one a place by id; null in planar mode.
   const FullCars* full() const;
   std::size_t on_road() const { return poses().size(); }
-  std::size_t vehicles() const;
-  std::size_t waiting() const;
+  std::size_t vehicles() const;  // all agents: on the road, waiting or gone
+  std::size_t waiting() const;   // agents that wait to enter
   // By flow of the settings.
   using FlowCount = traffic::FlowCount;
   const std::vector<FlowCount>& flows() const;
@@ -117,7 +120,7 @@ class TrafficModel {
                                     double s_m) const;  // whether a pedestrian can be called there
   // The pedestrian with this number has been hit and stays there.
   void HitPedestrian(std::uint32_t id);
-  // From its front bumper to its leader, as it was seen in the last step; 1e9 where none is in sight.
+  // In metres from its front bumper to its leader, as it was seen in the last step; 1e9 where none is in sight.
   double GapAhead(std::uint32_t id) const;
   // Whether a standing agent has where to go, as it was seen in the last step: none within 5 m before it or, where it
   // stands at a line before conflict zones, none up to where it would stand behind them.
@@ -131,11 +134,13 @@ class TrafficModel {
   std::vector<AgentDetail> Details();
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
   const std::vector<network::LightColour>& colours() const;
-  // What limit, bends, crests and descents of this track let a vehicle drive there without another in its way.
+  // The speed that limit, bends, crests and descents of this track allow at d_m metres along it, without other
+  // vehicles.
   double FreeSpeed_mps(std::uint32_t track, double d_m) const;
   const lanes::Graph& graph() const;
   const lanes::Zones& zones() const;
 
+  // Restore takes the state of a model that was made with the same settings and network.
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 

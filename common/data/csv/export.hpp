@@ -32,7 +32,7 @@ struct ExportReport {
   std::vector<std::string> losses;    // what of the recording could not be read
 };
 
-// Called now and then with the share that is done, 0 to 1; the export is broken off where it gives false.
+// Called now and then with the share that is done, 0 to 1; the export is cancelled where it gives false.
 using ExportProgress = std::function<bool(double share)>;
 
 // What is written where.

@@ -27,7 +27,7 @@ struct ProcessOptions {
   double pace = 0.0;  // 0: as fast as possible
   std::optional<double> duration_s;
   bool listen = false;         // take lines from standard input: a parent saw a process die, an operator asks
-  std::uint64_t clock_id = 0;  // 0: drawn by lot; another incarnation of a clock keeps that of the first
+  std::uint64_t clock_id = 0;  // 0: random; another incarnation of a clock keeps that of the first
   std::int64_t begun_ns =
       -1;               // another incarnation: when the run began, as std::chrono::steady_clock counts; -1: it has not
   bool paused = false;  // another incarnation: begin paused

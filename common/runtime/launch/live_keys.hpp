@@ -20,7 +20,7 @@ struct LiveKey {
 
 // One message of a window: its whole state. A lost one does not matter, the next says the same.
 struct LiveKeysSaid {
-  std::uint64_t window = 0;  // drawn by lot
+  std::uint64_t window = 0;  // random
   std::uint64_t number = 0;  // grows with every message of the window
   std::vector<LiveKey> keys;
 };

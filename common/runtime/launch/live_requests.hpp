@@ -25,7 +25,7 @@ struct LiveRequest {
 // One message of a window: what it has not yet seen happen, by number. A lost one does not matter, the next says it
 // again.
 struct LiveRequestsSaid {
-  std::uint64_t window = 0;  // drawn by lot
+  std::uint64_t window = 0;  // random
   std::vector<LiveRequest> requests;
 };
 

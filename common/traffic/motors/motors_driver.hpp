@@ -53,7 +53,7 @@ struct MotorsCar {
 
 class MotorsDriver {
  public:
-  // Drawn by lot: 0.5 … 1, and 3 to 4 degrees a frame.
+  // Drawn at random by the caller: responsiveness 0.5 to 1, aggression 3 to 4 degrees a frame.
   MotorsDriver(double responsiveness, double aggression_deg);
   MotorsDriver() : MotorsDriver(1.0, 3.5) {}
 

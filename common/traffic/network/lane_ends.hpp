@@ -21,7 +21,7 @@ class LaneEnds {
   // Distance along the track, in metres, up to which a lane change is possible; below 0 where none is.
   double ChangeEnds_m(std::uint32_t track) const { return change_ends_m_[track]; }
   // Distance along the track, in metres, from which a lane that leads nowhere is narrower than 2 m, up to its end or to
-  // a place where nothing is left of it: a vehicle's way ends there. 0 where all of the track is; infinite where the
+  // a place where its width is 0: a vehicle's way ends there. 0 where all of the track is; infinite where the
   // track does not end so. A blunt lane does not: its vehicles change before.
   double NarrowsFrom_m(std::uint32_t track) const { return narrows_from_m_[track]; }
 
