@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/setting.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
@@ -148,10 +149,8 @@ TEST_F(SharedProcesses, AKilledProcessIsStartedAgainAndTheRunComesToTheSameBits)
     }
     const Ended ended = run.Wait(90s);
     ExpectTheSame(ended, name);
-    EXPECT_NE(ended.out.find(fmt::format("again   node '{}' of process '{}' was killed by signal 9",
-                                         process == "cars" ? "driver" : "road", process)),
-              std::string::npos)
-        << ended.out;
+    EXPECT_THAT(ended.out, Names(fmt::format("again … '{}' … process '{}' … signal 9",
+                                             process == "cars" ? "driver" : "road", process)));
   }
 }
 
@@ -170,8 +169,7 @@ TEST_F(SharedProcesses, ACrashNamesTheNodeAndItsProcess) {
         Command(launch, policy, "1",
                 {"--set", "recovery=" + policy, "--set", "nodes.b.config.end_at_step=200", "--set",
                  "nodes.b.config.end_by=assertion", "--set", "nodes.b.config.end_once=" + File(policy + ".once")}));
-    EXPECT_NE(ended.out.find("node 'b' of process 'p' was killed by signal 6 (Aborted)"), std::string::npos)
-        << ended.out;
+    EXPECT_THAT(ended.out, Names("node 'b' … process 'p' … signal 6 (Aborted)"));
     EXPECT_EQ(ended.status, policy == "stop" ? 1 : 0) << ended.out;
     if (policy == "restart") {
       EXPECT_EQ(DigestIn(ended.out), DigestIn(calm.out)) << ended.out;
