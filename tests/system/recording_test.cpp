@@ -175,7 +175,7 @@ TEST_F(Recordings, ACutFileIsNamedExportedAndMended) {
   const Ended good = Ask({"info", Path("good.mcap")});
   EXPECT_EQ(good.status, 0) << good.out;
   EXPECT_THAT(good.out, HasSubstr("repaired:"));
-  EXPECT_THAT(good.out, HasSubstr("no gaps; the run was broken off at step "));
+  EXPECT_THAT(good.out, HasSubstr("no gaps; the run was cancelled at step "));
   EXPECT_EQ(Ask({"repair", Path("cut.mcap"), "--out", Path("good.mcap")}).status, 2) << "never overwritten";
   EXPECT_EQ(Ask({"repair", Path("none.mcap"), "--out", Path("new.mcap")}).status, 2);
   EXPECT_FALSE(fs::exists(Path("new.mcap")));

@@ -112,7 +112,7 @@ TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
   EXPECT_NE(ended.out.find("stopped while the run waited: node 'traffic' was killed by signal 9"), std::string::npos)
       << ended.out;
   const Ended info = RunCommand({Bin("rodeira"), "info", File("stop.mcap")});
-  EXPECT_NE(info.out.find("no gaps; the run was broken off at step "), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("no gaps; the run was cancelled at step "), std::string::npos) << info.out;
 }
 
 TEST_F(Recovery, RepeatedCrashWithoutProgressEndsRun) {

@@ -86,7 +86,7 @@ int Info(const std::string& file) {
     fmt::print("{}\n", audit.last_step && audit.has_every_sample() ? "damaged, though no source lacks a sample"
                                                                    : "not lossless: samples of the run are missing");
   } else if (whole && audit.broken_off) {
-    fmt::print("no gaps; the run was broken off at step {}\n", audit.last_step.value_or(0));
+    fmt::print("no gaps; the run was cancelled at step {}\n", audit.last_step.value_or(0));
   } else if (whole && audit.last_step) {
     fmt::print("lossless: each source's samples are there once, from step 0 to step {}\n", *audit.last_step);
   } else if (whole) {
