@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of docs/reference/ends.md: each part of a run ended by each cause under each policy. RODEIRA_ENDS says how
-// many of its cells are run (12), spread over the table; 1000 runs all. RODEIRA_DRAWN_ENDS says how many cells are drawn
-// and struck at a drawn instant (4), RODEIRA_DRAWN_ENDS_SEED the number of the first one. RODEIRA_DRAWN_ENDS_FILE names
-// a file that keeps the number of the next one: a sequence goes on where it was broken off.
+// many of its cells are run (12), spread over the table; 1000 runs all.
+//
+// RODEIRA_DRAWN_ENDS says how many cells are drawn, and run at a drawn instant (4), RODEIRA_DRAWN_ENDS_SEED the number
+// of the first one. RODEIRA_DRAWN_ENDS_FILE names a file that keeps the number of the next one, for a sequence that was
+// cancelled.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -55,7 +57,7 @@ int SignalOf(const std::string& name) {
   return 0;
 }
 
-// One cell of the table with real processes, struck `at` after the run began. What is not as the table says; empty: all
+// One cell of the table with real processes, lost `at` after the run began. What is not as the table says; empty: all
 // is.
 class CellRun {
  public:

@@ -107,7 +107,7 @@ bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const Agen
 // into all the same.
 struct Intruded {
   std::uint64_t sufficed = 0, hopeless = 0;
-  PlotCurve could{"half a second and 0.8 g suffice: nobody is hit", "#1f5f8b", {}, false},
+  PlotCurve could{"half a second and 0.8 g suffice: no vehicle is hit", "#1f5f8b", {}, false},
       hit{"hit all the same", "#b03020", {}, false}, beyond{"they do not suffice", "#b8b8b8", {}, false};
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // .bt files with headers that are broken in every way that there is: a grid that can be asked, or a sentence. The
-// reader of headers sees RODEIRA_FUZZ_HEADERS of them (300 000), files are loaded from RODEIRA_FUZZ_FILES of them (200),
-// both from the number RODEIRA_FUZZ_FIRST on.
+// reader of headers sees RODEIRA_FUZZ_HEADERS of them (300 000); files are loaded from RODEIRA_FUZZ_FILES of them
+// (200). Both begin at the number RODEIRA_FUZZ_FIRST.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
