@@ -27,7 +27,7 @@ double Smooth(double u) {
 // The line that the driver means to follow. It begins to turn within a lane and ends within the next, as far as their
 // widths allow: 3.5 m over the 30 m between them would need more grip than there is.
 double PathY(double x_m) {
-  constexpr std::array<double, 2> kOver_m = {7.5, 52.5}, kBack_m = {62.0, 103.0};
+  constexpr std::array<double, 2> kOver_m = {7.5, 52.5}, kBack_m = {62.5, 103.0};
   const double x = x_m - kRunUp_m;
   return kOffset_m *
          (Smooth((x - kOver_m[0]) / (kOver_m[1] - kOver_m[0])) - Smooth((x - kBack_m[0]) / (kBack_m[1] - kBack_m[0])));
@@ -60,14 +60,14 @@ double WorstCorner(const dynamics::VehicleState& s, const dynamics::VehicleDimen
   return worst;
 }
 
-// The autopilot's way of steering, a little quicker of eye.
+// The autopilot's way of steering, nearer to the car and from where the car will be when it answers the steering wheel.
 double WheelAngle(const dynamics::VehicleState& s, const dynamics::VehicleDimensions& d) {
-  constexpr double kAhead_s = 0.55;
+  constexpr double kAhead_s = 0.3, kAnswer_s = 0.15;
   driver::SteeringSettings settings;
   settings.preview_s = kAhead_s;
-  const double heading = s.heading_rad();
-  const Eigen::Vector2d rear_axle_W =
-      s.p_WB_W.head<2>() - 0.5 * d.wheelbase_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  const double heading = s.heading_rad() + kAnswer_s * s.w_WB_B.z();
+  const Eigen::Vector2d rear_axle_W = s.p_WB_W.head<2>() + kAnswer_s * s.v_WB_W.head<2>() -
+                                      0.5 * d.wheelbase_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
   const double target_x = rear_axle_W.x() + driver::PreviewDistance(settings, s.speed_mps());
   return driver::PursuitAngle(settings, rear_axle_W, heading, {target_x, PathY(target_x)}, d.wheelbase_m,
                               s.speed_mps()) *
