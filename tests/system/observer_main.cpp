@@ -16,7 +16,7 @@
 
 int main(int argc, char** argv) {
   using namespace rodeira;
-  const dds::ParsedOptions parsed = dds::ParseOptions("observer", false, argc, argv);
+  const dds::ParsedOptions parsed = dds::ParseOptions("observer", dds::ProgramOf::kNode, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);
   if (!launch) return launch.error().exit_status();

@@ -36,6 +36,7 @@ void Set(const Parts& parts, Settings& tyres, assists::AssistSettings& assists) 
       tyre.pneumatic_trail_m = 0.0;
     }
   }
+  assists = {};
   assists.abs = parts.abs;
 }
 
@@ -122,6 +123,8 @@ int main(int argc, char** argv) {
     Compare(model, "aligning moment", *plain, plane, *no_moment, plane, 0.0, rounds);
     Compare(model, "anti-lock brakes, coasting", *abs, plane, *plain, plane, 0.0, rounds);
     Compare(model, "anti-lock brakes, full brake", *abs, plane, *plain, plane, 1.0, rounds);
+    Compare(model, "both, coasting", *abs, plane, *no_moment, plane, 0.0, rounds);
+    Compare(model, "both, full brake", *abs, plane, *no_moment, plane, 1.0, rounds);
     Compare(model, "kerbs", *plain, kerbs, *plain, level, 0.0, rounds);
   }
   return 0;
