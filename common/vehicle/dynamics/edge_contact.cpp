@@ -14,7 +14,6 @@ using Eigen::Vector3d;
 constexpr double kNegligible_m = 2e-4;  // a tyre bears less than its rolling resistance over 0.1 m with it
 constexpr double kTightestBend_m = 10;  // radius of a road's crest or dip: planes along it differ by way^2 / (2 radius)
 constexpr double kResting_m = 1e-9;     // a hub that moves by less goes nowhere
-constexpr double kParallel = 1e-6;      // planes with slopes that differ by less meet nowhere
 constexpr double kNearest = 0.2;        // of hub and edge, share of the radius: the rim bears long before
 
 double Lean(const WheelDisc& disc, const Vector3d& normal_W) {
@@ -24,13 +23,6 @@ double Lean(const WheelDisc& disc, const Vector3d& normal_W) {
 // How far the disc reaches beyond the plane; negative in the air.
 double Deflection(const WheelDisc& disc, const WheelGround& ground) {
   return disc.radius_m - (disc.hub_W - ground.plane_W).dot(ground.normal_W) / Lean(disc, ground.normal_W);
-}
-
-// From the hub to the point of the plane that the disc's lowest point touches or would touch.
-Vector3d ToLowest(const WheelDisc& disc, const WheelGround& ground) {
-  const double lean = Lean(disc, ground.normal_W), tilt = disc.axle_W.dot(ground.normal_W);
-  const double reach_m = (disc.hub_W - ground.plane_W).dot(ground.normal_W) / lean;
-  return reach_m / lean * (tilt * disc.axle_W - ground.normal_W);
 }
 
 double SlopeAlong(const WheelGround& ground, const Vector3d& way) {
@@ -50,19 +42,6 @@ Vector3d ToHub(const GroundEdge& edge, const WheelDisc& disc) {
   return way - way.dot(along) * along;
 }
 
-// Across the edge, level: a disc meets an edge at a point and rolls about it in its own plane, whatever the edge's
-// direction. A wheel without an axle is round to every side: its edge is the line where both planes meet.
-Vector3d AcrossEdge(const WheelGround& before, const WheelGround& ground, const WheelDisc& disc,
-                    const Vector3d& ahead) {
-  if (!disc.axle_W.isZero(0.0)) return ahead;
-  Vector3d across =
-      before.normal_W / std::max(before.normal_W.z(), 1e-3) - ground.normal_W / std::max(ground.normal_W.z(), 1e-3);
-  across.z() = 0.0;
-  const double differs = across.norm();
-  if (differs < kParallel) return ahead;
-  return across.dot(ahead) < 0.0 ? Vector3d(across / -differs) : Vector3d(across / differs);
-}
-
 void StandOn(const GroundEdge& edge, const WheelDisc& disc, WheelGround& wheel) {
   const Vector3d way = ToHub(edge, disc);
   wheel.edge = edge;
@@ -75,7 +54,8 @@ bool IsValid(const GroundEdge& edge, const WheelDisc& disc, const WheelGround& g
   const Vector3d way = ToHub(edge, disc);
   if (way.norm() < kNearest * disc.radius_m) return false;
   if (edge.rises) return way.dot(edge.ahead_W) < 0.0;
-  return way.dot(edge.ahead_W) >= 0.0 && (way + ToLowest(disc, ground)).dot(edge.ahead_W) < 0.0;
+  const Vector3d foot = way - (disc.hub_W - ground.plane_W).dot(ground.normal_W) * ground.normal_W;
+  return way.dot(edge.ahead_W) >= 0.0 && foot.dot(edge.ahead_W) < 0.0;
 }
 
 // Where the old plane ends: where both meet, within the way that the hub has moved.
@@ -85,21 +65,17 @@ GroundEdge FallingEdge(const WheelGround& before, const WheelGround& ground, con
   const double steeper = slope - SlopeAlong(ground, ahead);
   double at_m = steeper > 0.0 ? (HeightAt(ground, disc.hub_W) - height_m) / steeper : 0.0;
   at_m = std::clamp(at_m, -moved_m, 0.0);
-  return {{disc.hub_W.x() + at_m * ahead.x(), disc.hub_W.y() + at_m * ahead.y(), height_m + slope * at_m},
-          AcrossEdge(before, ground, disc, ahead),
-          false};
+  return {
+      {disc.hub_W.x() + at_m * ahead.x(), disc.hub_W.y() + at_m * ahead.y(), height_m + slope * at_m}, ahead, false};
 }
 
-// Ahead on the ground's plane, so that the disc is pressed in by `pressed_m`. Everything lies in the upright plane
-// along `ahead`: a plane that also rises to the side presses in no further.
+// Ahead on the ground's plane, so that the disc is pressed in by `pressed_m`.
 GroundEdge RisingEdge(const WheelGround& ground, const WheelDisc& disc, const Vector3d& ahead, double pressed_m) {
   const double reach_m = std::max(disc.radius_m - pressed_m, kNearest * disc.radius_m);
-  const Vector3d up = ground.normal_W.dot(ahead) * ahead + ground.normal_W.z() * Vector3d::UnitZ();
-  const double share = std::max(up.norm(), 1e-3);
-  const Vector3d normal = up / share, along = normal.z() * ahead - normal.dot(ahead) * Vector3d::UnitZ();
-  const double over_m = std::clamp((disc.hub_W - ground.plane_W).dot(ground.normal_W) / share, 0.0, reach_m);
+  const double over_m = std::clamp((disc.hub_W - ground.plane_W).dot(ground.normal_W), 0.0, reach_m);
+  const Vector3d along = (ahead - ahead.dot(ground.normal_W) * ground.normal_W).normalized();
   const double at_m = std::sqrt(reach_m * reach_m - over_m * over_m);
-  const Vector3d way = (over_m * normal - at_m * along).normalized();
+  const Vector3d way = (over_m * ground.normal_W - at_m * along).normalized();
   return {disc.hub_W - reach_m * Lean(disc, way) * way, ahead, true};
 }
 
@@ -139,7 +115,7 @@ void RollOn(const WheelGround& before, const WheelDisc& disc, WheelGround& wheel
     const GroundEdge edge = FallingEdge(old, wheel, disc, ahead, before.edge ? 0.0 : moved_m);
     if (IsValid(edge, disc, wheel)) return StandOn(edge, disc, wheel);
   }
-  StandOn(RisingEdge(wheel, disc, AcrossEdge(old, wheel, disc, ahead), pressed_m), disc, wheel);
+  StandOn(RisingEdge(wheel, disc, ahead, pressed_m), disc, wheel);
 }
 
 }  // namespace rodeira::dynamics
