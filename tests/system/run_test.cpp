@@ -98,12 +98,12 @@ TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
 
 TEST(Run, WhereRodeiraItselfIsKilledNoProcessIsLeftAfterTwoSeconds) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
-               "--run", "orphans"});
-  ASSERT_TRUE(Runs("orphans"));
-  ASSERT_EQ(ProcessesWith("--run orphans", "/rodeira-").size(), 5u);
+               "--run", "killed-front-door"});
+  ASSERT_TRUE(Runs("killed-front-door"));
+  ASSERT_EQ(ProcessesWith("--run killed-front-door", "/rodeira-").size(), 5u);
   ::kill(run.pid(), SIGKILL);
   std::this_thread::sleep_for(2s);
-  EXPECT_TRUE(ProcessesWith("--run orphans", "/rodeira-").empty());
+  EXPECT_TRUE(ProcessesWith("--run killed-front-door", "/rodeira-").empty());
 }
 
 TEST(Run, WrongInputIsOneSentenceAndStatusTwo) {

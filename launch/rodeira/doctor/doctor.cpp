@@ -86,8 +86,9 @@ std::vector<CheckFunction> ChecksOfPictures() {
 std::vector<std::string> ExpectedPrograms() {
   std::vector<std::string> programs = NodePrograms();
   if (DrawsNothing())
-    std::erase_if(programs,
-                  [](const std::string& name) { return name == "rodeira-view" || name == "rodeira-graphics"; });
+    std::erase_if(programs, [](const std::string& name) {
+      return name == "rodeira-view" || name == "rodeira-graphics" || name == "rodeira-nodes-graphics";
+    });
   return programs;
 }
 
