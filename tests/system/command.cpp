@@ -139,6 +139,16 @@ bool HasControlSocket(const std::string& run_name) {
 
 }  // namespace
 
+pid_t ProcessWith(const std::string& first, const std::string& second, pid_t before) {
+  const auto until = WallClock::now() + std::chrono::seconds(20);
+  while (WallClock::now() < until) {
+    const auto found = ProcessesWith(first, second);
+    if (found.size() == 1 && found.front() != before) return found.front();
+    ::usleep(5000);
+  }
+  return -1;
+}
+
 bool Runs(const std::string& run_name, std::chrono::milliseconds limit) {
   const auto until = WallClock::now() + limit;
   while (WallClock::now() < until) {

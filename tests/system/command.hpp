@@ -44,6 +44,9 @@ Ended RunCommand(const std::vector<std::string>& command);
 
 // Living processes with a command line that holds both texts (the run's name, "--node a").
 std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& second = "");
+// Waits until there is exactly one, another than `before`: a process between fork and exec has another command line. -1
+// where there is none within 20 s.
+pid_t ProcessWith(const std::string& first, const std::string& second, pid_t before = -1);
 
 // Waits until a run of separate processes goes on; false where it does not within `limit`.
 bool Runs(const std::string& run_name, std::chrono::milliseconds limit = std::chrono::milliseconds(30000));

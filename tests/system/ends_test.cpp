@@ -101,14 +101,7 @@ class CellRun {
   // The clock answers before each node's process has its own command line.
   pid_t Victim(const Started& run) const {
     if (cell_.part == "rodeira run") return run.pid();
-    const auto until = std::chrono::steady_clock::now() + 20s;
-    do {
-      const auto found =
-          ProcessesWith("--run " + name_ + " ", cell_.part == "clock" ? "/rodeira-clock" : "--node " + cell_.part);
-      if (found.size() == 1) return found.front();
-      std::this_thread::sleep_for(5ms);
-    } while (std::chrono::steady_clock::now() < until);
-    return -1;
+    return ProcessWith("--run " + name_ + " ", cell_.part == "clock" ? "/rodeira-clock" : "--node " + cell_.part);
   }
   // A recorder that was killed or stopped leaves a file without an end; every other one is closed.
   void CheckRecording() {

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "common/runtime/lockstep/sample.hpp"
 #include "idl/topics.hpp"
@@ -47,6 +50,13 @@ std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Re
     return fmt::format("sample {}: {} here, {} there", i, text(a, i), text(b, i));
   }
   return "";
+}
+
+void WaitForGrowth(const std::string& recording) {
+  std::error_code problem;
+  const auto before = std::filesystem::file_size(recording, problem);
+  for (int i = 0; i < 2000 && (std::filesystem::file_size(recording, problem) == before || problem); ++i)
+    ::usleep(5000);
 }
 
 }  // namespace rodeira::system_test

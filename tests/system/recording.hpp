@@ -30,6 +30,9 @@ std::vector<Recorded> SamplesOf(const std::string& recording);
 // Where two runs part: node, step, topic and both digests. Empty where they never do.
 std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Recorded>& b);
 
+// Waits until more of a recording is on the disk than now, or nothing comes for 10 s: the run may be over.
+void WaitForGrowth(const std::string& recording);
+
 // All messages of one topic, in order; `source` names the node where several publish it.
 template <class Message>
 std::vector<Message> MessagesOf(const std::string& recording, std::string_view topic, const std::string& source = "") {

@@ -27,23 +27,8 @@ class Recovery : public ::testing::Test {
     return ProcessesWith("--run " + run, part == "clock" ? "/rodeira-clock" : "--node " + part);
   }
 
-  // The process, once it lives and is let alone for a moment: a signal between fork and exec would hit nothing of
-  // interest.
   static pid_t Find(const std::string& run, const std::string& part) {
-    for (int i = 0; i < 1000; ++i) {
-      const auto found = ProcessesOf(run, part);
-      if (found.size() == 1) return found.front();
-      ::usleep(5000);
-    }
-    return -1;
-  }
-
-  // Until more of a recording is on the disk than now, or nothing comes for long: the run may be over.
-  static void WaitForGrowth(const std::string& recording) {
-    std::error_code problem;
-    const auto before = std::filesystem::file_size(recording, problem);
-    for (int i = 0; i < 2000 && (std::filesystem::file_size(recording, problem) == before || problem); ++i)
-      ::usleep(5000);
+    return ProcessWith("--run " + run, part == "clock" ? "/rodeira-clock" : "--node " + part);
   }
 
   // Until a recording is closed, without a pause: what its recorder does then takes microseconds.
