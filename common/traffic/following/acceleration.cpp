@@ -72,6 +72,9 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, std::max(-kSeeking_mps2, (SeekingSpeed(id, planned) - v) / in_.settings.tracking_s));
   if (const Piece& last = agent.path.back(); agent.change.side != 0 && last.blend_m < kMinLaneChangeLength_m)
     wanted = std::min(wanted, (TightChange_mps(last.offset_m, last.blend_m) - v) / in_.settings.tracking_s);
+  if (const Piece& last = agent.path.back(); agent.overtaking.active() && last.blend_m < kMinLaneChangeLength_m &&
+                                             agent.o_m < last.blend_from_m + last.blend_m)
+    wanted = std::min(wanted, (TightChange_mps(last.aside_m, last.blend_m) - v) / in_.settings.tracking_s);
   const Leader& ahead = in_.ahead[id];
   if (ahead.any && ahead.gap_m < in_.settings.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
@@ -85,7 +88,9 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
   if (const auto end = in_.lanes_beside.EndAhead(id))
     wanted = std::min(wanted, in_.following.StopAt(id, end->waits_m, kLaneEndShare));
-  if (const auto stands = in_.lanes_beside.GoesRound_m(id); stands && agent.change.side == 0) {
+  auto stands = in_.lanes_beside.GoesRound_m(id);
+  if (!stands) stands = in_.overtaking_start.PassesStanding_m(id);
+  if (stands && agent.change.side == 0) {
     const double soonest = FrontOf(agent, traits) + v * v / (2.0 * kRoomBraking_mps2);
     wanted = std::min(wanted, in_.following.StopAt(id, std::max(*stands - kRoomToGoRound_m, soonest)));
   }

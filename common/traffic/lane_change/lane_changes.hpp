@@ -47,10 +47,11 @@ class LaneChanges {
   };
   LaneChanges(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const;
+  // `even_slowly`: also at a walking pace, where it has another reason.
+  bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns, bool even_slowly = false) const;
   bool NeedsSlowChange(std::uint32_t id) const;
   bool GoesRound(std::uint32_t id) const;
-  bool MayLeaveLane(std::uint32_t id) const;
+  bool MayLeaveLane(std::uint32_t id, bool even_slowly = false) const;
   // Changes to the lane beside.
   void ChangeLanes(std::int64_t step_ns);
   double WantedCourteous(std::uint32_t id, double limit_mps) const;

@@ -273,9 +273,15 @@ bool LaneWays::IsShutIn(std::uint32_t id) const {
 }
 
 double LaneWays::Blocked_m(std::uint32_t id) const {
-  double nearest = kNoBarrier_m;
-  EachBody(id, in_.stretches[id], kGoesRoundFrom_m,
-           [&](const Leader& body) { nearest = std::min(nearest, body.gap_m); });
+  const auto body = BlockedBy(id);
+  return body ? body->gap_m : kNoBarrier_m;
+}
+
+std::optional<Leader> LaneWays::BlockedBy(std::uint32_t id) const {
+  std::optional<Leader> nearest;
+  EachBody(id, in_.stretches[id], kGoesRoundFrom_m, [&](const Leader& body) {
+    if (!nearest || body.gap_m < nearest->gap_m) nearest = body;
+  });
   return nearest;
 }
 

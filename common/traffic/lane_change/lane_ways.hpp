@@ -52,6 +52,8 @@ class LaneWays {
   // Odometer of the rear of what stands before it on its lane, if that is kept by a vehicle that is no agent, or was
   // hit, and stands there or comes towards it, and it may go round by a lane beside.
   std::optional<double> GoesRound_m(std::uint32_t id) const;
+  // The nearest vehicle on its lane, within 150 m, that is no agent and stands or comes towards it.
+  std::optional<Leader> BlockedBy(std::uint32_t id) const;
   // Whether there is too little room before it to go round.
   bool IsShutIn(std::uint32_t id) const;
   // Room to the first vehicle that is no agent, or was hit, and stands on its way or comes towards it; far where there

@@ -122,8 +122,9 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   return way;
 }
 
-bool LaneChanges::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
-  return IsItsTurn(in_.time_ns, id, step_ns) && in_.time_ns >= out_.agents[id].settled_ns && MayLeaveLane(id);
+bool LaneChanges::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns, bool even_slowly) const {
+  return IsItsTurn(in_.time_ns, id, step_ns) && in_.time_ns >= out_.agents[id].settled_ns &&
+         MayLeaveLane(id, even_slowly);
 }
 
 // Whether it must change lanes for its route where only slow vehicles can.
@@ -134,9 +135,10 @@ bool LaneChanges::NeedsSlowChange(std::uint32_t id) const {
 // Whether it is to go round a vehicle that stands before it.
 bool LaneChanges::GoesRound(std::uint32_t id) const { return in_.lanes_beside.GoesRound_m(id).has_value(); }
 
-bool LaneChanges::MayLeaveLane(std::uint32_t id) const {
+bool LaneChanges::MayLeaveLane(std::uint32_t id, bool even_slowly) const {
   const Agent& agent = out_.agents[id];
-  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id) || NeedsSlowChange(id) || GoesRound(id)) &&
+  return (even_slowly || agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id) || NeedsSlowChange(id) ||
+          GoesRound(id)) &&
          in_.map.graph[agent.path.back().track].junction < 0 && agent.grants.empty() && !in_.passages[id].due;
 }
 

@@ -2,8 +2,10 @@
 #include "common/traffic/overtaking/overtaking_drive.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/traffic/lane_change/lane_change.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -79,6 +81,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   };
   way.to_m = front + on.way_m, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : on.time_s;
   if (!passed || is_past || (passed->speed_mps < kMinPassed_mps && passed->gap_m < 0.0)) return;
+  if (passed->body >= 0 && std::fabs(passed->speed_mps) < kStandingLeader_mps) return;  // behind it is no way back
   // Falling back: slower than that one until it is behind, and back.
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
                least = std::max(1.0, passed->speed_mps - slower);
@@ -114,7 +117,9 @@ void OvertakingDrive::Overtake(std::int64_t step_ns) {
     if (!agent.overtaking.active()) {
       if (agent.brake_mps2 == 0.0 &&
           (agent.told_past ? in_.lane_changes.MayLeaveLane(id)
-                           : in_.settings.overtaking.allowed && in_.lane_changes.ThinksOfLanes(id, step_ns)))
+                           : in_.settings.overtaking.allowed &&
+                                 in_.lane_changes.ThinksOfLanes(
+                                     id, step_ns, out_.overtaking_start.PassesStanding_m(id).has_value())))
         out_.overtaking_start.ThinkOfOvertaking(id);
       continue;
     }

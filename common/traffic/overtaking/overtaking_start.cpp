@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "common/driving/driver/idm.hpp"
+#include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/overtaking/haste.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
@@ -26,6 +28,11 @@ constexpr double kBrakes_mps2 = 2.0;        // there
 constexpr double kLegalMargin_m = 10.0;     // beyond the return for which marks and signs are checked
 constexpr double kInitialLength_m = 150.0;  // first guess of the overtaking distance
 constexpr int kGuesses = 4;
+constexpr double kSlowest_mps = 1.0;         // at which it is taken to come nearer
+constexpr double kStandingClear_m = 1.0;     // before one that stands its path is clear of it
+constexpr double kFarFromJunction_m = 40.0;  // beyond one that stands: it does not wait at a line
+
+bool Stands(const Leader& other) { return other.body >= 0 && std::fabs(other.speed_mps) < kStandingLeader_mps; }
 
 double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kGain_mps; }
 
@@ -56,8 +63,41 @@ bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
   if (limit < ahead.speed_mps + GainFor(out_.agents[id])) return false;
   if (out_.agents[id].told_past)
     return ahead.gap_m < in_.traits[id].idm.standing_gap_m + kToldNear_s * out_.agents[id].speed_mps;
+  if (Stands(ahead) && PassesStanding_m(id)) return true;
   return in_.following.Following(id, limit, true, ahead.gap_m, ahead.speed_mps) <
          in_.following.Following(id, limit, false, 0.0, 0.0) - kHeldUp_mps2;
+}
+
+// Sideways, from the middle of its lane, until it is clear of the one that it passes.
+double OvertakingStart::Needs_m(std::uint32_t id, const Leader& passed, int side) const {
+  return 0.5 * in_.traits[id].width_m + kOvertakingClearance_m + (side > 0 ? passed.left_m : -passed.right_m);
+}
+
+// Slowly, a path out to be clear of one that stands is as short as that one's nearness makes it.
+void OvertakingStart::Tighten(std::uint32_t id, Piece& piece) const {
+  const Leader& passed = in_.ahead[id];
+  if (!Stands(passed)) return;
+  const double share = Needs_m(id, passed, piece.aside_m > 0.0 ? 1 : -1) / std::fabs(piece.aside_m),
+               tight = (passed.gap_m - kStandingClear_m) / QuinticShareAt(share);
+  if (tight < piece.blend_m && tight >= kMinTightChangeLength_m &&
+      out_.agents[id].speed_mps < TightChange_mps(piece.aside_m, tight))
+    piece.blend_m = tight;
+}
+
+std::optional<double> OvertakingStart::PassesStanding_m(std::uint32_t id) const {
+  const Agent& agent = out_.agents[id];
+  const lanes::Track& track = in_.map.graph[agent.path.back().track];
+  if (!in_.settings.overtaking.allowed || agent.overtaking.active() || track.left || track.right) return std::nullopt;
+  const auto body = in_.lanes_beside.BlockedBy(id);
+  if (!body) return std::nullopt;
+  const double front = FrontOf(agent, in_.traits[id]), stands = front + body->gap_m, clear = stands + body->length_m;
+  const auto piece = PieceOut(id, 0.0);
+  if (!piece || !in_.lanes_beside.IsPlain(id, front, clear + kFarFromJunction_m)) return std::nullopt;
+  const int side = piece->aside_m > 0.0 ? 1 : -1;
+  if (!in_.lanes_beside.MayCross(id, side, front, clear) ||
+      Needs_m(id, *body, side) > kMaxAside * std::fabs(piece->aside_m))
+    return std::nullopt;
+  return stands;
 }
 
 // Whether there is room for it between the one passed and the leader of that one.
@@ -82,7 +122,9 @@ bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, con
 std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaking& way) {
   const AgentTraits& traits = in_.traits[id];
   const Leader& passed = in_.ahead[id];
-  const double front = out_.agents[id].o_m + 0.5 * traits.length_m, v = out_.agents[id].speed_mps;
+  const double front = out_.agents[id].o_m + 0.5 * traits.length_m, v = out_.agents[id].speed_mps,
+               fast = std::max(v, kSlowest_mps),
+               clear_m = Stands(passed) ? kStandingClear_m : traits.idm.standing_gap_m;
   const Oncoming oncoming = in_.oncoming.FindOncoming(id);
   if (oncoming.own_way) return std::nullopt;
   std::optional<Piece> piece;
@@ -94,14 +136,15 @@ std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaki
     piece = PieceOut(id, top);
     if (!piece) return std::nullopt;
     way.side = piece->aside_m > 0.0 ? 1 : -1;
-    const double needs =
-        0.5 * traits.width_m + kOvertakingClearance_m + (way.side > 0 ? passed.left_m : -passed.right_m);
+    const double needs = Needs_m(id, passed, way.side);
     if (needs > kMaxAside * std::fabs(piece->aside_m)) return std::nullopt;
+    Tighten(id, *piece);
     way.clear_m = front + piece->blend_m * QuinticShareAt(needs / std::fabs(piece->aside_m));
     PassCase pass = CaseOf(id, passed, top, piece->aside_m, to);
     pass.to_clear_m = way.clear_m - front;
-    if (pass.gains_mps2 < kMinGain_mps2 ||
-        passed.gap_m - (v - passed.speed_mps) * pass.to_clear_m / v < traits.idm.standing_gap_m)
+    if (piece->blend_m < kMinLaneChangeLength_m)  // from a walking pace on it gains speed on its way out
+      pass.speed_mps = std::max(v, 0.5 * TightChange_mps(piece->aside_m, piece->blend_m));
+    if (pass.gains_mps2 < kMinGain_mps2 || passed.gap_m - (fast - passed.speed_mps) * pass.to_clear_m / fast < clear_m)
       return std::nullopt;
     plan = PlanPass(pass);
     if (oncoming.from_m - front - plan.way_m < oncoming.speed_mps * (plan.time_s + in_.settings.overtaking.margin_s))

@@ -47,6 +47,9 @@ class OvertakingStart {
 
   driver::IdmSettings IdmOf(std::uint32_t id) const;
   void ThinkOfOvertaking(std::uint32_t id);
+  // The odometer where a vehicle that is no agent stands before it, far from a junction, if it may be passed on the
+  // lane of oncoming traffic.
+  std::optional<double> PassesStanding_m(std::uint32_t id) const;
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
   PassCase CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m, double to_m) const;
 
@@ -55,6 +58,8 @@ class OvertakingStart {
   bool HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps);
   std::optional<Piece> WeighOvertaking(std::uint32_t id, Overtaking& way);
   std::optional<Piece> PieceOut(std::uint32_t id, double top_mps) const;
+  double Needs_m(std::uint32_t id, const Leader& passed, int side) const;
+  void Tighten(std::uint32_t id, Piece& piece) const;
   bool MayOvertake(std::uint32_t id, double to_m, double aside_m) const;
 
   Reads in_;

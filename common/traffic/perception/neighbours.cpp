@@ -83,8 +83,10 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
     if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > left || block.span.left_m < right)
       return std::nullopt;
     const double gap = zero_m + block.span.rear_m - front;
-    if (gap >= in_.settings.sight_m ||
-        (agent.overtaking.active() && IsPassed(agent.overtaking, front, -1, block.body, gap)))
+    const bool is_far = gap >= in_.settings.sight_m && !agent.overtaking.active();  // one that overtakes looks on
+    if (is_far ||
+        (agent.overtaking.active() && (IsPassed(agent.overtaking, front, -1, block.body, gap) ||
+                                       IsCleared(agent.overtaking, front, block.body, gap, block.span.speed_mps))))
       return std::nullopt;
     return Leader{gap,
                   block.span.speed_mps,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "common/traffic/overtaking/overtaking.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/world/lanes/graph.hpp"
 
@@ -28,6 +30,11 @@ inline bool GoesOn(const lanes::Graph& graph, const CurrentTrackCache& below, st
 inline bool IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body, double gap_m) {
   const bool same = (id >= 0 && id == overtaking.passed) || (body >= 0 && body == overtaking.passed_body);
   return same && !overtaking.back && front_m >= overtaking.clear_m && (!overtaking.gives_up || gap_m <= 0.0);
+}
+// Whether one that stands is before the place where the path out has cleared it: then the way to there is free.
+inline bool IsCleared(const Overtaking& overtaking, double front_m, std::int64_t body, double gap_m, double speed_mps) {
+  return body >= 0 && body == overtaking.passed_body && !overtaking.back && !overtaking.gives_up &&
+         std::fabs(speed_mps) < kStandingLeader_mps && front_m + gap_m >= overtaking.clear_m + kPassingBy_m;
 }
 
 }  // namespace rodeira::traffic

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver's car drives in eight ways among traffic, on a road of two lanes a direction: no vehicle drives into it or
-// into another one, and none waits longer than a minute where there is a way on or round it.
+// A driver's car drives in eight ways among traffic, on a road of two lanes a direction, and in three where there is
+// one: no vehicle drives into it or into another one, and none waits longer than a minute (for a gap in oncoming
+// traffic 100 s) where there is a way on or round it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,14 +21,14 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kStep_s = 0.05, kBegins_s = 60.0, kFor_s = 300.0, kWaits_s = 60.0;
+constexpr double kStep_s = 0.05, kBegins_s = 60.0, kFor_s = 300.0, kWaits_s = 60.0, kWaitsForGap_s = 100.0;
 constexpr double kFree_m = 60.0, kCarLength_m = 4.4, kMoves_mps = 0.1, kShutIn_m = 7.0, kCutsIn_m = 10.0;
-constexpr std::uint64_t kLeave = 90;  // of some 130 vehicles that come meanwhile
+constexpr std::uint64_t kLeave = 90, kLeaveOneLane = 12;  // of some 130, and some 27, vehicles that come meanwhile
 constexpr double kLength_m = 1600.0, kAt_m = 900.0, kLane_m = 3.5;
 constexpr double kInner_y = -0.5 * kLane_m, kOuter_y = -1.5 * kLane_m, kOncoming_y = 0.5 * kLane_m;
 
 // Along x; right-hand traffic.
-std::shared_ptr<const network::Network> Road() {
+std::shared_ptr<const network::Network> Road(int lanes) {
   const auto lane = [](int id) {
     return fmt::format(
         "<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/><roadMark "
@@ -39,8 +40,8 @@ std::shared_ptr<const network::Network> Road() {
   road.length = kLength_m;
   road.geometry =
       fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kLength_m);
-  road.left = lane(2) + lane(1);
-  road.right = lane(-1) + lane(-2);
+  road.left = (lanes == 2 ? lane(2) : "") + lane(1);
+  road.right = lane(-1) + (lanes == 2 ? lane(-2) : "");
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
@@ -115,9 +116,21 @@ const Way kWays[] = {
      }},
 };
 
-TrafficSettings Demand(std::uint64_t seed) {
+// Where there is one lane a direction it has to be passed on that of oncoming traffic, in a gap of some 20 s.
+const Way kWaysOnOneLane[] = {
+    {"StandsInItsLane", {kAt_m, kInner_y, 0.0, 0.0}, [](Car&, double, const TrafficModel&) {}},
+    {"StandsHalfOnTheVerge", {kAt_m, -kLane_m, 0.1, 0.0}, [](Car&, double, const TrafficModel&) {}},
+    {"DrivesSlowly",
+     {500.0, kInner_y, 0.0, 4.0},
+     [](Car& car, double, const TrafficModel& model) { car.Drive(Room(car, model) < 8.0 ? 0.0 : 4.0, 4.0); }},
+};
+
+TrafficSettings Demand(std::uint64_t seed, int lanes) {
   std::string flows = "flows:\n";
-  for (const int lane : {-2, -1, 1, 2}) flows += fmt::format("  - {{lane: \"1:{}\", vehicles_per_h: 400}}\n", lane);
+  for (const int lane : {-2, -1, 1, 2}) {
+    const int per_h = lanes == 2 ? 400 : lane < 0 ? 200 : 120;
+    if (std::abs(lane) <= lanes) flows += fmt::format("  - {{lane: \"1:{}\", vehicles_per_h: {}}}\n", lane, per_h);
+  }
   TrafficSettings settings = Settings(flows, seed);
   settings.vehicles = TrafficSettings::kMaxOfFlows;
   return settings;
@@ -182,13 +195,10 @@ void WaitForRoom(TrafficModel& model, const Car& car) {
   }
 }
 
-class DriversCar : public ::testing::TestWithParam<Way> {};
-
-TEST_P(DriversCar, IsAvoidedAndPassed) {
-  const Way& way = GetParam();
-  const auto network = Road();
+void DriveAmongTraffic(const Way& way, int lanes, std::uint64_t leave, double waits_s) {
+  const auto network = Road(lanes);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    TrafficModel model = TrafficModel::Make(Demand(seed), network, {}).value();
+    TrafficModel model = TrafficModel::Make(Demand(seed, lanes), network, {}).value();
     for (double t = 0.0; t < kBegins_s; t += kStep_s) model.Step(kStep_s, {});
     Car car = way.begins;
     WaitForRoom(model, car);
@@ -202,13 +212,20 @@ TEST_P(DriversCar, IsAvoidedAndPassed) {
       watch.Look(model, there ? &car : nullptr, t);
     }
     EXPECT_EQ(watch.contacts, 0) << seed;
-    EXPECT_LT(watch.longest_wait_s, kWaits_s) << seed;
-    EXPECT_GT(model.ended() - ended, kLeave) << seed;
+    EXPECT_LT(watch.longest_wait_s, waits_s) << seed;
+    EXPECT_GT(model.ended() - ended, leave) << seed;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, DriversCar, ::testing::ValuesIn(kWays),
-                         [](const auto& way) { return std::string(way.param.name); });
+std::string NameOf(const ::testing::TestParamInfo<Way>& way) { return way.param.name; }
+
+class DriversCar : public ::testing::TestWithParam<Way> {};
+TEST_P(DriversCar, IsAvoidedAndPassed) { DriveAmongTraffic(GetParam(), 2, kLeave, kWaits_s); }
+INSTANTIATE_TEST_SUITE_P(Ways, DriversCar, ::testing::ValuesIn(kWays), NameOf);
+
+class DriversCarOnOneLane : public ::testing::TestWithParam<Way> {};
+TEST_P(DriversCarOnOneLane, IsAvoidedAndPassed) { DriveAmongTraffic(GetParam(), 1, kLeaveOneLane, kWaitsForGap_s); }
+INSTANTIATE_TEST_SUITE_P(Ways, DriversCarOnOneLane, ::testing::ValuesIn(kWaysOnOneLane), NameOf);
 
 }  // namespace
 }  // namespace rodeira::traffic

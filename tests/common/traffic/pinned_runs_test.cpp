@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
                       PinnedRun{"crossing", 60, 14, 1, kPlanar, 0.05, 180.0, With::kFlows, "ae5a9ec730dcbee1"},
                       PinnedRun{"exit", 60, 15, 1, kPlanar, 0.05, 270.0, With::kRoute, "4e3afd58d4c825e3"},
                       PinnedRun{"n222.yaml", 60, 16, 1, kPlanar, 0.05, 270.0, With::kUnequal, "cc6bf426162fa14c"},
-                      PinnedRun{"n222.yaml", 40, 17, 1, kPlanar, 0.02, 120.0, With::kCar, "ccc921b1b981c19f"},
+                      PinnedRun{"n222.yaml", 40, 17, 1, kPlanar, 0.02, 120.0, With::kCar, "6e4b244c309f3a75"},
                       PinnedRun{"motorway.yaml", 100, 18, 1, kPlanar, 0.05, 180.0, With::kUnequal, "c18509a8532fffff"},
                       PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "29397067762341ff"},
                       PinnedRun{"town", 40, 20, 1, kPlanar, 0.02, 120.0, With::kCommands, "234a7700468def9e"},
