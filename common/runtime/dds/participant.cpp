@@ -25,6 +25,7 @@
 #include "common/runtime/dds/library_log.hpp"
 #include "common/runtime/dds/participant_qos.hpp"
 #include "common/runtime/dds/raw_type.hpp"
+#include "common/runtime/dds/reader_listeners.hpp"
 #include "common/runtime/dds/robust_mutexes.hpp"
 #include "common/runtime/dds/shared_memory_room.hpp"
 #include "common/runtime/dds/udp_port.hpp"
@@ -183,7 +184,7 @@ class FastParticipant final : public Participant {
 
 base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSettings& settings) {
   RODEIRA_ASSERT(!settings.run.empty());
-  RODEIRA_ASSERT(SharedMutexesAreRobust());
+  RODEIRA_ASSERT(SharedMutexesAreRobust() && DeletedReadersHaveListeners());
   const launch::Discovery& discovery = settings.discovery;
   if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
     return base::WrongInput("dds.port_in_use",
