@@ -120,6 +120,7 @@ void TraceCrashes([[maybe_unused]] const char* advice) {
 
 NodeCall::NodeCall(const char* node) noexcept : outer_node_(t_node) { t_node = node; }
 NodeCall::~NodeCall() { t_node = outer_node_; }
+const char* CurrentNode() noexcept { return t_node; }
 
 ForeignCall::ForeignCall(const char* function, const char* owner) noexcept
     : outer_function_(t_function), outer_owner_(t_owner) {

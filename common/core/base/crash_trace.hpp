@@ -22,6 +22,9 @@ class NodeCall {
   const char* outer_node_;
 };
 
+// The node that this thread works for; null: none, or the process has one node.
+const char* CurrentNode() noexcept;
+
 // While it lives, this thread runs code that is not Rodeira's, such as a shared object of a laboratory. After
 // TraceCrashes a crash says so: "rodeira: crash: SIGSEGV in fmi2DoStep of FMU '/a/car.fmu'; backtrace:". Foreign code
 // that calls exit() is said the same way ("rodeira: crash: exit in ..."), and ends the process with status 1 at once.

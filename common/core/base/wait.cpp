@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/core/base/crash_trace.hpp"
+
 namespace rodeira::base {
 namespace {
 
@@ -11,7 +13,7 @@ WaitNote* g_newest_wait = nullptr;
 
 }  // namespace
 
-WaitNote::WaitNote(const char* cause) : cause_(cause) {
+WaitNote::WaitNote(const char* cause) : cause_(cause), node_(CurrentNode()) {
   const std::lock_guard lock(g_waits_mutex);
   older_ = g_newest_wait;
   if (older_ != nullptr) older_->newer_ = this;
@@ -24,11 +26,12 @@ WaitNote::~WaitNote() {
   if (older_ != nullptr) older_->newer_ = newer_;
 }
 
-std::string LongestWait(std::chrono::milliseconds at_least) {
+std::string LongestWait(std::chrono::milliseconds at_least, std::string_view node) {
   const std::lock_guard lock(g_waits_mutex);
-  const WaitNote* longest = g_newest_wait;
+  const WaitNote* longest = nullptr;
   for (const WaitNote* note = g_newest_wait; note != nullptr; note = note->older_) {
-    if (note->since_ < longest->since_) longest = note;
+    if (std::string_view(note->node_ == nullptr ? "" : note->node_) != node) continue;
+    if (longest == nullptr || note->since_ < longest->since_) longest = note;
   }
   if (longest == nullptr) return {};
   const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - longest->since_;

@@ -82,7 +82,10 @@ lockstep::Report NodeBus::ReportNow() {
     report.waiting = lockstep::Waiting::kNothing;
     report.since_ms = std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - *held_up_since_).count();
   }
-  if (!lockstep::IsTerminal(report.phase)) report.message = base::LongestWait(kShownWait);
+  if (!lockstep::IsTerminal(report.phase)) {
+    const bool is_alone = settings_.exchange == nullptr;
+    report.message = base::LongestWait(kShownWait, is_alone ? std::string_view() : roster_.node(settings_.node).name);
+  }
   if (!end || lockstep::IsTerminal(report.phase)) return report;
   if (!ends_since_) ends_since_ = WallClock::now();
   if (runner_ != nullptr && WallClock::now() - *ends_since_ < kTimeToEnd) return report;

@@ -224,6 +224,7 @@ class HostedNode final : public HostedPart {
 
   // What goes wrong is told to the clock, which ends the run.
   int Run() override {
+    const base::NodeCall call(name_.empty() ? nullptr : name_.c_str());
     if (!problem_.ok()) return Fail(problem_.error());
     lockstep::Runner::Settings settings;
     settings.incarnation = incarnation_;

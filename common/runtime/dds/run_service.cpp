@@ -54,9 +54,13 @@ class HostedService final : public HostedPart {
     return {};
   }
 
-  void Make() override { problem_ = MakeService(); }
+  void Make() override {
+    const base::NodeCall call(name_.empty() ? nullptr : name_.c_str());
+    problem_ = MakeService();
+  }
 
   int Run() override {
+    const base::NodeCall call(name_.empty() ? nullptr : name_.c_str());
     if (!problem_.ok()) {
       const base::Error& error = problem_.error();
       report_.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;

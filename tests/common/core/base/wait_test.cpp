@@ -8,13 +8,15 @@
 #include <memory>
 #include <thread>
 
+#include "common/core/base/crash_trace.hpp"
+
 namespace rodeira::base {
 namespace {
 
 using namespace std::chrono_literals;
 using ::testing::StartsWith;
 
-TEST(Wait, TheLongestOfTheProcessIsNamed) {
+TEST(Wait, TheLongestIsNamed) {
   EXPECT_EQ(LongestWait(0ms), "");
   {
     const WaitNote first("the road server's world");
@@ -26,6 +28,21 @@ TEST(Wait, TheLongestOfTheProcessIsNamed) {
     EXPECT_EQ(LongestWait(1h), "") << "what is brief is not worth a word";
   }
   EXPECT_EQ(LongestWait(0ms), "");
+}
+
+// Nodes that share a process: each has the waits of the threads that work for it.
+TEST(Wait, EachNodeHasItsOwn) {
+  const NodeCall road("road");
+  const WaitNote first("its world");
+  std::thread([] {
+    const NodeCall ego("ego");
+    const WaitNote second("the clock's first grant");
+    EXPECT_THAT(LongestWait(0ms, "road"), StartsWith("waits for its world since 0."));
+    EXPECT_THAT(LongestWait(0ms, "ego"), StartsWith("waits for the clock's first grant since 0."));
+    EXPECT_EQ(LongestWait(0ms, "driver"), "");
+    EXPECT_EQ(LongestWait(0ms), "") << "these threads work for nodes";
+  }).join();
+  EXPECT_EQ(LongestWait(0ms, "ego"), "");
 }
 
 // Notes end in any order.
