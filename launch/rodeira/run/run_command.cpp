@@ -10,11 +10,13 @@
 #include <cstring>
 #include <iterator>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "common/runtime/launch/process_proposal.hpp"
 #include "common/runtime/launch/shared_process.hpp"
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
@@ -58,6 +60,17 @@ base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& pl
                             fmt::format("node '{}'", node.name));
   }
   return {};
+}
+
+// For a person at a terminal.
+void ProposeSharedProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch) {
+  if (options.quiet || ::isatty(STDERR_FILENO) == 0) return;
+  launch::RunOnOnePc pc{{}, placement.has_clock(), std::max(1U, std::thread::hardware_concurrency())};
+  for (lockstep::NodeIndex n = 0; n < launch.nodes().size(); ++n) {
+    if (placement.Has(launch.node(n))) pc.nodes.push_back(n);
+  }
+  const std::string text = launch::ProposalText(launch, pc);
+  if (!text.empty()) fmt::print(stderr, "rodeira: {}\n", text);
 }
 
 }  // namespace
@@ -128,6 +141,7 @@ int Run(const RunOptions& given) {
     launch = launch::Launch::Load(options.launch_file, overrides);
     if (!launch) return base::PrintError("rodeira", launch.error());
   }
+  ProposeSharedProcesses(resolved, placement, launch.value());
   return RunProcesses(resolved, placement, launch.value(), std::move(overrides));
 }
 
