@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
+#include "common/core/base/file_kind.hpp"
 #include "common/core/base/files.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/core/base/utf8.hpp"
@@ -83,13 +86,28 @@ YAML::Node WithoutLines(const YAML::Node& node) {
   return out;
 }
 
+// The first bytes of a regular file; empty where there are none.
+std::string BeginOf(const std::filesystem::path& path) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) return "";
+  std::string begin(4096, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  return begin;
+}
+
 }  // namespace
 
 File::File(std::shared_ptr<detail::Context> context) : context_(std::move(context)) {}
 
 base::Result<File> File::Load(const std::filesystem::path& path) {
   auto text = base::ReadText(path, 16u << 20);
-  if (!text) return text.error();
+  if (!text) {
+    const std::string about = base::AboutOtherFormat(BeginOf(path), path);  // a recording is larger than that
+    if (about.empty()) return text.error();
+    return base::WrongInput("config.not_text", "YAML text was expected; this is " + about, path.string());
+  }
   return Parse(text.value(), path);
 }
 
@@ -97,25 +115,32 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   auto context = std::make_shared<detail::Context>();
   context->path = name;
   context->text = std::string(text);
+  const std::string about = base::AboutOtherFormat(text, name);
+  const auto other = [&about] { return about.empty() ? about : "; this is " + about; };
   if (text.find('\0') != std::string_view::npos)
-    return base::WrongInput("config.not_text", "the file holds a zero byte; YAML text was expected", name.string());
+    return base::WrongInput(
+        "config.not_text",
+        about.empty() ? "the file holds a zero byte; YAML text was expected" : "YAML text was expected" + other(),
+        name.string());
   if (const auto at = base::FirstNotUtf8(text)) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*at), '\n');
     return base::WrongInput(
         "config.not_utf8",
-        fmt::format("byte 0x{:02x} is not UTF-8; YAML in UTF-8 was expected; save the file as UTF-8",
-                    static_cast<unsigned char>(text[*at])),
+        fmt::format("byte 0x{:02x} is not UTF-8; YAML in UTF-8 was expected{}", static_cast<unsigned char>(text[*at]),
+                    about.empty() ? "; save the file as UTF-8" : other()),
         fmt::format("{}:{}", name.string(), line));
   }
   const auto root = LoadYaml(context->text, "this");
   if (!root)
-    return root.error().WithContext(root.error().context.empty() ? name.string()
-                                                                 : name.string() + ":" + root.error().context);
+    return root.error()
+        .WithMessage(root.error().message + other())
+        .WithContext(root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
   context->root.reset(root.value());
   if (!context->root.IsMap()) {
     return base::WrongInput(
         "config.not_mapping",
-        fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
+        fmt::format("the file holds {}; a mapping (key: value) was expected{}", KindOf(context->root), other()),
+        name.string());
   }
   return File(context);
 }
@@ -204,6 +229,9 @@ std::vector<base::Error> File::Problems() const {
   }
   all.insert(all.end(), strange.begin(), strange.end());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  // A file of another kind has its keys: that is said first.
+  std::stable_partition(all.begin(), all.end(),
+                        [](const auto& problem) { return problem.id == base::ErrorId("config.other_kind"); });
   std::vector<base::Error> errors;
   for (auto& problem : all)
     errors.push_back(base::WrongInput(problem.id, problem.message, PlaceOf(*context_, problem.line)));

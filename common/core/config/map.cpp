@@ -5,10 +5,21 @@
 #include <type_traits>
 #include <utility>
 
+#include "common/core/base/file_kind.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/core/config/yaml.hpp"
 
 namespace rodeira::config {
+namespace {
+
+// What a file of a known kind is that says `version`, "world/2", where another kind was expected; empty: the same kind,
+// or an unknown one.
+std::string OtherKind(std::string_view version, std::string_view expected, const detail::Context& context) {
+  const std::string_view kind = version.substr(0, version.find('/'));
+  return kind == expected.substr(0, expected.find('/')) ? "" : base::AboutKind(kind, context.path);
+}
+
+}  // namespace
 
 Map::Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlNode> node, std::string path)
     : context_(std::move(context)), node_(std::move(node)), path_(std::move(path)) {
@@ -120,6 +131,13 @@ std::string Map::Choice(std::string_view key, const std::vector<std::string>& al
   const auto value = Scalar<std::string>(key, false, "a word");
   if (!value) return std::string(default_value);
   if (std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
+    if (const std::string about =
+            key == "rodeira" && path_.empty() ? OtherKind(*value, allowed.front(), *context_) : "";
+        !about.empty()) {
+      Problem(key, "config.other_kind",
+              fmt::format("'rodeira' is '{}'; '{}' was expected; this is {}", *value, allowed.front(), about));
+      return std::string(default_value);
+    }
     Problem(key, "config.unknown_word",
             fmt::format("'{}' is '{}'{}", Sub(path_, key), *value, base::DidYouMean(*value, allowed)));
     return std::string(default_value);

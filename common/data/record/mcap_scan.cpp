@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
+#include "common/core/base/file_kind.hpp"
 #include "common/data/record/checksum.hpp"
 #include "common/data/record/mcap_contents.hpp"
 
@@ -334,6 +336,16 @@ base::Result<Scan> Scanner::Run() {
   return std::move(scan_);
 }
 
+// "; this is …" where the file is of another kind that Rodeira reads.
+std::string OtherKind(const Source& source) {
+  constexpr std::uint64_t kSearched = 4096;
+  const auto begin = source.Read(0, std::min(kSearched, source.size()));
+  if (!begin) return "";
+  const std::string_view text(reinterpret_cast<const char*>(begin.value().data()), begin.value().size());
+  const std::string about = base::AboutFile(text, source.name());
+  return about.empty() ? about : "; this is " + about;
+}
+
 }  // namespace
 
 Status CheckMark(const Source& source) {
@@ -349,8 +361,8 @@ Status CheckMark(const Source& source) {
                     std::string(1, static_cast<char>(mark.value()[kVersionAt])), static_cast<char>(kMagic[kVersionAt])),
         source.name());
   }
-  return WrongInput("recording.not_mcap", "this is no MCAP recording: it does not begin with MCAP's mark",
-                    source.name());
+  return WrongInput("recording.not_mcap",
+                    "this is no MCAP recording: it does not begin with MCAP's mark" + OtherKind(source), source.name());
 }
 
 void AddNamed(const Contents& summary, Contents& scanned) {

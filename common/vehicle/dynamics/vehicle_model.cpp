@@ -81,7 +81,8 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   const auto said = root.Peek({"model"});
   if (!said || std::ranges::find(names, *said) == names.end()) {  // no model: which other keys are known is open
     for (const base::Error& problem : file.value().Problems()) {
-      if (problem.message.find("'model'") != std::string::npos) return problem;
+      const bool is_other_kind = problem.id == base::ErrorId("config.other_kind");
+      if (is_other_kind || problem.message.find("'model'") != std::string::npos) return problem;
     }
   }
   const auto models = ReadModels(root.OptionalChild("models"));

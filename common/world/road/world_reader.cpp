@@ -38,7 +38,9 @@ constexpr const char* kVersion = "world/2";
 // Whether the file is of the second version.
 bool ReadVersion(const Map& root) {
   const std::string version = root.Text("rodeira");
-  if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
+  if (!version.starts_with("world/")) {
+    (void)root.Choice("rodeira", {kVersion, kFirstVersion}, kVersion);
+  } else if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
     root.Problem("rodeira", "config.other_version",
                  fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version, kVersion,
                              kFirstVersion));

@@ -122,6 +122,23 @@ TEST(Config, RefusesWhatIsNoMapping) {
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
 }
 
+// A recording that is named where a launch file is wanted.
+TEST(Config, AFileOfAnotherKindIsNamedWithWhatTakesIt) {
+  EXPECT_THAT(File::Parse(std::string("\x89MCAP0\r\n\0", 9), "p07.mcap").error(),
+              IsError("config.not_text", "p07.mcap: … recording … rodeira replay p07.mcap"));
+  EXPECT_THAT(File::Parse("<?xml version='1.0'?><OpenDRIVE/>", "a.xodr").error().Text(), Names("OpenDRIVE"));
+  const File world = File::Parse("name: a\nrodeira: world/2\nroads: {}\n", "a.yaml").value();
+  (void)world.root().Choice("rodeira", {"launch/1"});
+  (void)world.root().Child("nodes");
+  EXPECT_EQ(
+      world.Finish().error().Text(),
+      "a.yaml:2: 'rodeira' is 'world/2'; 'launch/1' was expected; this is a world; rodeira world info a.yaml; run "
+      "in it: rodeira run LAUNCH.yaml --set world=a.yaml");
+  const File other = File::Parse("rodeira: launch/9\n", "a.yaml").value();
+  (void)other.root().Choice("rodeira", {"launch/1"});
+  EXPECT_EQ(other.Finish().error().id, base::ErrorId("config.unknown_word")) << "the same kind";
+}
+
 TEST(Config, NestingIsBounded) {
   for (const std::size_t depth : {1000u, 100'000u}) {
     for (const char* open : {"[", "{a: ", "- ", "? "}) {

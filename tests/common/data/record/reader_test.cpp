@@ -155,6 +155,7 @@ TEST(Reader, RefusesWhatIsNoRecording) {
   EXPECT_EQ(text_of(""), "memory: this is no MCAP recording: it does not begin with MCAP's mark");
   EXPECT_EQ(text_of("PK and something else that is long enough"),
             "memory: this is no MCAP recording: it does not begin with MCAP's mark");
+  EXPECT_THAT(text_of("rodeira: launch/1\nnodes: {}\n"), testing::HasSubstr("launch file; run it: rodeira run memory"));
   base::Bytes other = Record(SmallPlan(), SmallSettings(Compression::kZstd));
   other[5] = std::byte{'7'};
   EXPECT_EQ(McapReader::OpenBytes(other).error().Text(),
