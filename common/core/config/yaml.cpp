@@ -130,6 +130,25 @@ std::optional<std::int64_t> ToInteger(const std::string& text) {
   return value;
 }
 
+namespace {
+
+// The first line, from 1, that is indented by a tab, which YAML does not allow; 0: there is none.
+int LineWithTab(std::string_view text) {
+  int line = 1;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view now = text.substr(at, end - at);
+    const std::size_t first = now.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && now[first] != '#' &&
+        now.substr(0, first).find('\t') != std::string_view::npos)
+      return line;
+    at = end + 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
 base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
   const auto failed = [](const std::string& why, const YAML::Mark& mark) {
     return base::WrongInput("config.not_yaml", why, mark.is_null() ? "" : std::to_string(mark.line + 1));
@@ -143,6 +162,10 @@ base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
                               what, problem.depth()),
                   problem.mark);
   } catch (const YAML::Exception& problem) {
+    if (const int line = LineWithTab(text); line > 0)
+      return base::WrongInput("config.not_yaml",
+                              fmt::format("{} is no YAML: a tab indents this line; spaces were expected", what),
+                              std::to_string(line));
     return failed(fmt::format("{} is no YAML: {}", what, problem.msg), problem.mark);
   }
 }

@@ -122,6 +122,18 @@ TEST(Config, RefusesWhatIsNoMapping) {
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
 }
 
+// A tab is not seen in an editor; the library's own message speaks of other things.
+TEST(Config, ATabAsIndentationIsNamedWithItsLine) {
+  for (const char* text : {"a: 1\nb:\n\tc: 2\n", "b:\n  - c: 2\n\td: 3\n", "a: 1\n \tb: {c: 2}\n"}) {
+    const auto file = File::Parse(text, "dir/a.yaml");
+    ASSERT_FALSE(file.ok()) << text;
+    const int line = text[0] == 'a' && text[5] == ' ' ? 2 : 3;
+    EXPECT_EQ(file.error().Text(), "dir/a.yaml:" + std::to_string(line) +
+                                       ": this is no YAML: a tab indents this line; spaces were expected");
+  }
+  EXPECT_TRUE(File::Parse("a: {b: 1}\t# a tab before a remark\n", "a.yaml").ok());
+}
+
 // A recording that is named where a launch file is wanted.
 TEST(Config, AFileOfAnotherKindIsNamedWithWhatTakesIt) {
   EXPECT_THAT(File::Parse(std::string("\x89MCAP0\r\n\0", 9), "p07.mcap").error(),
