@@ -118,7 +118,7 @@ class Writer {
 
   base::Result<FloatingCarsReport> Write(const std::filesystem::path& target) {
     if (auto status = Open(); !status) return status.error();
-    auto times = csv::TimesOf(query_.selection);
+    auto times = csv::TimesOf(query_.selection, reader_);
     if (!times) return times.error();
     csv::Workplace workplace(target);
     if (auto status = workplace.Begin(); !status) return status.error();

@@ -59,7 +59,7 @@ class Exporter {
         workplace_(target.path) {}
 
   base::Result<ExportReport> Run(std::span<const PlainTable> more) {
-    const auto times = TimesOf(selection_);
+    const auto times = TimesOf(selection_, reader_);
     if (!times) return times.error();
     if (auto status = workplace_.Begin(); !status) return status.error();
     if (form_ == Form::kMat) {

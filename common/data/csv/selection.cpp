@@ -40,18 +40,24 @@ bool IsGroup(std::string_view name, std::string_view column) {
 
 }  // namespace
 
-base::Result<record::Query> TimesOf(const Selection& selection) {
+base::Result<record::Query> TimesOf(const Selection& selection, const record::McapReader& reader) {
   record::Query query;
   if (selection.from_s) query.from_ns = Nanoseconds(*selection.from_s);
-  if (!selection.to_s) return query;
-  const std::uint64_t end_ns = Nanoseconds(*selection.to_s);
-  if (end_ns <= query.from_ns) {
+  const std::uint64_t end_ns = selection.to_s ? Nanoseconds(*selection.to_s) : query.through_ns;
+  if (selection.to_s && end_ns <= query.from_ns) {
     return base::WrongInput(
         "command.wrong_value",
         fmt::format("{} s was found; a time after {} s was expected", *selection.to_s, selection.from_s.value_or(0.0)),
         "--to");
   }
-  query.through_ns = end_ns - 1;
+  const std::uint64_t last_ns = reader.statistics().last_log_time_ns;
+  if (query.from_ns > last_ns) {
+    return base::WrongInput("replay.outside_of_run",
+                            fmt::format("{} s was found, but the recording ends at {:.3f} s", *selection.from_s,
+                                        static_cast<double>(last_ns) / kNsPerSecond),
+                            "--from");
+  }
+  if (selection.to_s) query.through_ns = end_ns - 1;
   return query;
 }
 

@@ -26,8 +26,8 @@ struct Selection {
 
 // Whether a time in seconds is chosen.
 bool Holds(const Selection& selection, double time_s);
-// The query for these times, of all channels. Wrong input where no time is left.
-base::Result<record::Query> TimesOf(const Selection& selection);
+// The query for these times, of all channels. Wrong input where no time is left, or the recording ends before.
+base::Result<record::Query> TimesOf(const Selection& selection, const record::McapReader& reader);
 
 // The topic without "rodeira/".
 std::string_view ShortTopic(std::string_view topic);

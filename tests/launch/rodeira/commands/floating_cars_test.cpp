@@ -12,6 +12,7 @@
 #include "launch/rodeira/commands/export_command.hpp"
 #include "tests/launch/rodeira/replay/replay_fixture.hpp"
 #include "tests/launch/rodeira/said.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -132,6 +133,11 @@ TEST_F(FloatingCars, OfAPartOnAPlane) {
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.errors, HasSubstr("a file of that name is there already"));
   options.fcd = Path("other.xml");
+  options.from = "3.5";
+  const Said late = Of(options);
+  EXPECT_EQ(late.status, 2);
+  EXPECT_THAT(late.errors, Names("--from: … 3.5 s … 3.000 s"));
+  EXPECT_FALSE(std::filesystem::exists(options.fcd));
   options.from = "mark:begin";
   const Said no_mark = Of(options);
   EXPECT_EQ(no_mark.status, 2);
