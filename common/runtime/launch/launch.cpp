@@ -12,6 +12,7 @@
 #include "common/core/config/declared.hpp"
 #include "common/runtime/launch/launch_schema.hpp"
 #include "common/runtime/launch/manifest.hpp"
+#include "common/runtime/launch/override_nodes.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "common/runtime/launch/shared_process.hpp"
 
@@ -298,6 +299,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
 
   launch.recovery_ = ReadPolicy(declared);
   const config::Map nodes = declared.MapWith("nodes").Child("nodes");
+  if (auto status = CheckNodesOf(overrides, nodes); !status) return status.error();
   std::vector<NodeSpec> specs;
   std::vector<config::Map> maps;
   std::vector<Manifest> manifests;

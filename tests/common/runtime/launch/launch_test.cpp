@@ -159,6 +159,16 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
               IsError("config.wrong_type", "dir/drive.yaml: … 'base_step_s' … 'fast'"));
 }
 
+// A misspelt node is not a new one without a kind.
+TEST(Launch, AnOverrideOfNoNodeIsRefusedWithTheNearest) {
+  EXPECT_THAT(ErrorOf(kDrive, {{"nodes.eog.period_s", "0.01"}}),
+              IsError("launch.unknown_node", "--set nodes.eog.period_s=0.01: … 'eog' … 'ego'"));
+  EXPECT_THAT(ErrorOf(kDrive, {{"nodes.eog.config.vehicle", "~"}}), IsError("launch.unknown_node", "'eog' … 'ego'"));
+  EXPECT_THAT(ErrorOf(kDrive, {{"nodes.ego.config", "{vehicle: a.yaml}"}, {"nodes.ego.vehicle", "b.yaml"}}),
+              IsError("config.unknown_key", "'nodes.ego.vehicle' … 'nodes.ego.config.vehicle'"));
+  EXPECT_TRUE(Launch::Parse(kDrive, "a.yaml", {{"nodes.new.period_s", "0.01"}, {"nodes.new.kind", "empty"}}).ok());
+}
+
 // A generated file for each declared key. A kind of node needs others; a kind of discovery needs UDP and an address.
 // The smallest number over 0 is no multiple of the base step.
 TEST(Launch, EveryDeclaredKeyKeepsItsTypeAndBounds) {
