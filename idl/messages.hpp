@@ -19,6 +19,7 @@
 #include "signals.h"
 #include "snapshot.h"
 #include "traffic.h"
+#include "traffic_requests.h"
 #include "trigger.h"
 #include "vehicle.h"
 #include "weather.h"

@@ -15,6 +15,8 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kJointForces, "rodeira::msg::JointForces", "joint_forces", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kTrafficDetails, "rodeira::msg::TrafficDetails", "traffic", true},
+      {topics::kTrafficRequests, "rodeira::msg::TrafficRequests", "traffic_requests", true},
+      {topics::kTrafficAnswers, "rodeira::msg::TrafficAnswers", "traffic_requests", true},
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
       {topics::kScenarioEvents, "rodeira::msg::ScenarioEvents", "scenario", true},
       {topics::kWeatherState, "rodeira::msg::WeatherState", "weather", true},

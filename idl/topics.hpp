@@ -21,6 +21,10 @@ inline constexpr std::string_view kTrafficState =
     "rodeira/traffic_state";  ///< TrafficState: position and motion of all traffic
 inline constexpr std::string_view kTrafficDetails =
     "rodeira/traffic_details";  ///< TrafficDetails: drivers and engines of all traffic
+inline constexpr std::string_view kTrafficRequests =
+    "rodeira/traffic_requests";  ///< TrafficRequests, of nodes that control the traffic
+inline constexpr std::string_view kTrafficAnswers =
+    "rodeira/traffic_answers";  ///< TrafficAnswers, of the traffic to its requests
 inline constexpr std::string_view kSignalsState = "rodeira/signals_state";      ///< SignalsState: traffic lights
 inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";  ///< ScenarioEvents
 inline constexpr std::string_view kWeatherState = "rodeira/weather_state";      ///< WeatherState

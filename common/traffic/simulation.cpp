@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -60,14 +61,30 @@ void Simulation::Accelerate(double dt_s) {
   EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { full_motion.DriveFull(id, step.wanted[id], dt_s); });
 }
 
-// At the end of its last lane a vehicle leaves; vehicles that have been hit slide.
+// At the end of its last lane a vehicle leaves, as does one that is to be removed; vehicles that have been hit slide.
 void Simulation::LeaveOrSlide(double dt_s) {
   step.leavers.clear();
   for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
     store.missed += step.missed_now[id];
     if (step.ends[id]) entering.Leave(id);
   }
+  RemoveAsked();
   crashes.StepCrashed(dt_s);
+}
+
+void Simulation::RemoveAsked() {
+  if (step.removals.empty()) return;
+  for (const std::uint32_t id : step.removals) {
+    std::erase_if(store.appearing, [id](const SpawningVehicle& next) { return next.id == id; });
+    if (step.ends[id]) {  // has just left, and does not enter again
+      std::erase(store.waiting, id);
+      continue;
+    }
+    step.is_moved[id] = 0;
+    entering.Remove(id);
+  }
+  step.removals.clear();
+  std::ranges::sort(step.leavers, {}, &Leaver::id);
 }
 
 // Vehicles of flows arrive, waiting ones enter, and a scenario's ones appear.
@@ -80,6 +97,7 @@ void Simulation::Enter(std::int64_t step_ns) {
 // What the next step, and others, see.
 void Simulation::Show(std::int64_t step_ns) {
   store.time_ns += step_ns;
+  store.light_holds.DropEnded(store.time_ns);
   signals.FindColours();
   body_poses.FindPoses();
 }

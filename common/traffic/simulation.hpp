@@ -107,6 +107,8 @@ struct Simulation : TrafficData {
   DetailReport details;
 
  private:
+  void SaveRoutes(base::StateWriter& writer) const;
+  void RestoreRoutes(base::StateReader& reader);
   void Observe(std::span<const driver::Footprint> others);
   void LetPeopleCross(double dt_s);
   void Reserve(double dt_s);
@@ -114,6 +116,7 @@ struct Simulation : TrafficData {
   void Overtake(std::int64_t step_ns);
   void Accelerate(double dt_s);
   void LeaveOrSlide(double dt_s);
+  void RemoveAsked();
   void Enter(std::int64_t step_ns);
   void Show(std::int64_t step_ns);
 };

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/core/base/huge_pages.hpp"
@@ -34,6 +36,8 @@ struct StepColumns {
   }
 
   std::vector<network::LightColour> colours;  // by controller
+  // Controllers that never show green together, in pairs; found at the first request for a light.
+  std::optional<std::vector<std::array<std::uint32_t, 2>>> conflicting_lights;
   // By vehicle.
   std::vector<std::uint8_t> beside, passes;  // it may think of another lane, of overtaking
   std::vector<double> wanted;                // acceleration
@@ -41,6 +45,7 @@ struct StepColumns {
   std::vector<double> bars;                  // odometer at which it waits for people on foot
   std::vector<std::uint32_t> missed_now;
   std::vector<Leaver> leavers;            // that left in the step, by ascending number
+  std::vector<std::uint32_t> removals;    // asked for before the step, ascending
   std::vector<std::uint8_t> ends;         // has come to the end of its last lane
   std::vector<AgentPose> moved;           // where the step has brought it …
   std::vector<std::uint8_t> is_moved;     // … if that is known, and it has not left or been hit since

@@ -19,6 +19,11 @@ void TrafficModel::CapSpeed(std::uint32_t id, double speed_mps) {
   simulation_->store.agents[id].cap_mps = speed_mps;
 }
 
+void TrafficModel::HoldSpeed(std::uint32_t id, double speed_mps) {
+  CapSpeed(id, speed_mps);
+  simulation_->store.agents[id].brake_mps2 = 0.0;
+}
+
 void TrafficModel::Release(std::uint32_t id) {
   RODEIRA_ASSERT(id < simulation_->store.agents.size());
   simulation_->store.agents[id].brake_mps2 = 0.0;

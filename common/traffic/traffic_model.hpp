@@ -67,7 +67,8 @@ class TrafficModel {
   // enter obeys when it has entered.
   void Brake(std::uint32_t id,
              double deceleration_mps2);  // above 0; at exactly this rate down to rest, and stay; harder where it must
-  void CapSpeed(std::uint32_t id, double speed_mps);  // above 0; never faster
+  void CapSpeed(std::uint32_t id, double speed_mps);   // above 0; never faster
+  void HoldSpeed(std::uint32_t id, double speed_mps);  // CapSpeed in place of Brake
   // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as
   // soon as the lane beside is free.
   void CommandOvertake(std::uint32_t id);
@@ -82,6 +83,22 @@ class TrafficModel {
   // Whether it ever could; Wrong input as Spawn's.
   base::Status CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const;
   bool IsSpawning(std::uint32_t id) const;
+  // Of one of the settings' `scripted` of that kind that is not on the road and does not wait to be: Spawn, with a
+  // route (ROAD or ROAD:LANE, one after the other; empty: none). Its id.
+  base::Result<std::uint32_t> Add(VehicleKind kind, const std::string& lane, double s_m, double speed_mps,
+                                  const std::vector<std::string>& roads);
+  // It leaves in the next step's end, wherever it is, and never enters again; one that waits does so no more. Wrong
+  // input where it is neither on the road nor waits.
+  base::Status Remove(std::uint32_t id);
+  // From here on it drives to these roads or lanes, one after the other. Wrong input where no way leads there, or it is
+  // too late: the ways part where its place is reserved, or before it could slow down.
+  base::Status SetRoute(std::uint32_t id, const std::vector<std::string>& roads);
+  // The road that it is on, then those of its route that it has not reached; without a route the next roads on its way,
+  // 16 at most, without those of junctions.
+  std::vector<std::string> RoadsAhead(std::uint32_t id) const;
+  // A controller's lights show red or green for that long, from now on; 0 s of red: until its plan shows red. Amber and
+  // red with amber are kept. Wrong input where it would be green or amber together with one that it must not meet.
+  base::Status HoldLight(const std::string& controller, network::LightColour colour, double duration_s);
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
   // 1 mm/s is nothing to it as long as it drives; nothing happens to one that is not there.

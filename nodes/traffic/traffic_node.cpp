@@ -29,6 +29,7 @@
 #include "idl/topics.hpp"
 #include "nodes/traffic/event_check.hpp"
 #include "nodes/traffic/starts.hpp"
+#include "nodes/traffic/traffic_requests.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -124,8 +125,12 @@ driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
 class TrafficNode final : public lockstep::Node {
  public:
   // stream: by which it is a partner in collisions.
-  TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model)
-      : name_(std::move(name)), stream_(stream), model_(std::move(model)) {}
+  TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model, bool publishes_answers)
+      : name_(std::move(name)),
+        stream_(stream),
+        model_(std::move(model)),
+        requests_(name_),
+        publishes_answers_(publishes_answers) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox, true);
@@ -147,6 +152,12 @@ class TrafficNode final : public lockstep::Node {
     if (inbox.Has(topics::kScenarioEvents)) {
       for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
         if (auto status = Obey(sample); !status) return status;
+      }
+    }
+    requests_.BeginStep();
+    if (inbox.Has(topics::kTrafficRequests)) {
+      for (const lockstep::Sample& sample : inbox.All(topics::kTrafficRequests)) {
+        if (auto status = requests_.Take(sample, model_); !status) return status;
       }
     }
     orders_.Before(model_);
@@ -291,6 +302,7 @@ class TrafficNode final : public lockstep::Node {
       for (const traffic::AgentDetail& detail : model_.Details()) details.agents().push_back(ToMessage(detail));
     }
     outbox.Put(topics::kTrafficDetails, idl::Encode(details));
+    if (publishes_answers_) outbox.Put(topics::kTrafficAnswers, idl::Encode(requests_.answers()));
   }
 
   msg::SignalsState Lights() const {
@@ -309,6 +321,8 @@ class TrafficNode final : public lockstep::Node {
   lockstep::SourceIndex stream_;
   traffic::TrafficModel model_;
   traffic::PlaceOrders orders_;
+  TrafficRequests requests_;
+  bool publishes_answers_;
   std::vector<driver::Footprint> others_;
   std::vector<std::pair<std::uint32_t, std::string>> told_to_appear_;  // in this step, by which event
 };
@@ -342,11 +356,14 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
     base::Log(base::LogLevel::kWarning, context.spec().name, traffic::Text(bend, model.value().graph()));
   }
   lockstep::SourceIndex stream = 0;
+  bool publishes_answers = false;
   for (const lockstep::SourceIndex output : context.spec().outputs) {
-    if (context.roster().source(output).topic == topics::kTrafficState) stream = output;
+    const std::string& topic = context.roster().source(output).topic;
+    if (topic == topics::kTrafficState) stream = output;
+    publishes_answers = publishes_answers || topic == topics::kTrafficAnswers;
   }
   return std::unique_ptr<lockstep::Node>(
-      std::make_unique<TrafficNode>(context.spec().name, stream, std::move(model).value()));
+      std::make_unique<TrafficNode>(context.spec().name, stream, std::move(model).value(), publishes_answers));
 }
 
 }  // namespace rodeira::nodes

@@ -163,6 +163,7 @@ bool Spawning::TrySpawn(const SpawningVehicle& next) {
   agent.entry = next.track;
   agent.speed_mps = next.speed_mps;
   agent.path = {{next.track, 0.0, 0.0, 0.0, 0.0, 1.0}};
+  if (const Route* route = RouteOf(in_.map, agent)) agent.leg = route->LegOn(0, next.track);
   if (!IsClearFor(next) || IsTakenUp(next.id)) return wait();
   out_.ways.FindRouteSegments(next.id, in_.settings.sight_m);
   double speed = std::min({next.speed_mps, in_.limits.Allowed(next.id, out_.agents[next.id].o_m).speed_mps,

@@ -57,20 +57,32 @@ LeaveReason Entering::ReasonOf(std::uint32_t id) const {
   return route->Reaches(agent.leg, track) ? LeaveReason::kLaneEnd : LeaveReason::kRouteMissed;
 }
 
-void Entering::Leave(std::uint32_t id) {
+// What is left of it for its next trip.
+void Entering::Clear(std::uint32_t id) {
   Agent& agent = out_.agents[id];
-  out_.leavers.push_back({id, ReasonOf(id)});
   const std::uint32_t trip = agent.trip + 1;
   const double driven = agent.driven_m;
   agent = Agent();
   if (out_.full) out_.full->Clear(id);
   agent.trip = trip;
   agent.driven_m = driven;
+}
+
+void Entering::Leave(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
+  out_.leavers.push_back({id, ReasonOf(id)});
+  Clear(id);
   if (id >= in_.settings.vehicles) return;  // a scenario's
   ++out_.ended;
   if (!in_.flows.empty()) return;  // the next vehicle of a flow is another one
-  agent.entry = DrawEntry(id, trip);
+  agent.entry = DrawEntry(id, agent.trip);
   out_.waiting.push_back(id);
+}
+
+void Entering::Remove(std::uint32_t id) {
+  if (out_.agents[id].on_road || out_.agents[id].is_crashed) out_.leavers.push_back({id, LeaveReason::kRemoved});
+  Clear(id);
+  std::erase(out_.waiting, id);
 }
 
 // At each entry the first that waits there. The vehicle on it, or, where that lies in the middle of the network, on the

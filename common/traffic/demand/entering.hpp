@@ -67,9 +67,12 @@ class Entering {
   double AtMostForLine(std::uint32_t id);
   // A vehicle at the end of its last lane leaves the road.
   void Leave(std::uint32_t id);
+  // It leaves wherever it is, and does not enter again.
+  void Remove(std::uint32_t id);
   void Enter();
 
  private:
+  void Clear(std::uint32_t id);
   LeaveReason ReasonOf(std::uint32_t id) const;
   bool IsAmongOthers(std::uint32_t track) const;
   bool IsExpected(std::uint32_t track, double gap_m) const;

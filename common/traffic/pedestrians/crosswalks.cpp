@@ -40,7 +40,7 @@ bool Crosswalks::LightsLetGo(const lanes::FootCrossing& crossing) const {
     const double needed_s = std::min(crossing.length_m / in_.settings.pedestrians->slowest_mps, kShareOfRed * red_s);
     for (double ahead_s = 0.0; ahead_s < needed_s + 1.0; ahead_s += 1.0) {
       const auto then_ns = in_.time_ns + std::llround(1e9 * std::min(ahead_s, needed_s));
-      if (network::ColourAt(times, then_ns) != network::LightColour::kRed) return false;
+      if (in_.signals.ColourAt(pass.light, then_ns) != network::LightColour::kRed) return false;
     }
   }
   return true;

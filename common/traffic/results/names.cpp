@@ -16,7 +16,8 @@ const char* NameOf(network::LightColour colour) {
 }
 
 const char* NameOf(LeaveReason reason) {
-  constexpr std::array<const char*, kLeaveReasons> kNames = {"route end", "network end", "route missed", "lane end"};
+  constexpr std::array<const char*, kLeaveReasons> kNames = {"route end", "network end", "route missed", "lane end",
+                                                             "removed"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 

@@ -13,7 +13,7 @@ namespace rodeira::traffic {
 
 const char* NameOf(VehicleKind kind);             // car, van, lorry, bus
 const char* NameOf(network::LightColour colour);  // red, red-amber, green, amber
-const char* NameOf(LeaveReason reason);           // route end, network end, route missed, lane end
+const char* NameOf(LeaveReason reason);           // route end, network end, route missed, lane end, removed
 // Of the bits of TrafficModel::LightsOf: "brake", "left", "right", joined by '+'; empty where none is on.
 std::string NameOfLamps(std::uint32_t bits);
 

@@ -35,7 +35,7 @@ void Signals::FindColours() {
   const auto controllers = in_.map.network->controllers();
   out_.colours.assign(controllers.size(), network::LightColour::kRed);
   for (std::size_t i = 0; i < controllers.size(); ++i) {
-    if (controllers[i].times) out_.colours[i] = network::ColourAt(*controllers[i].times, in_.time_ns);
+    if (controllers[i].times) out_.colours[i] = ColourAt(static_cast<std::int64_t>(i), in_.time_ns);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/perception/sight.hpp"
+#include "common/traffic/signals/light_holds.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 #include "common/world/network/network.hpp"
@@ -23,6 +24,7 @@ class Signals {
     std::span<const AgentTraits> traits;
     const std::int64_t& time_ns;
     std::span<const RouteSegments> stretches;
+    const LightHolds& holds;
   };
   struct Writes {
     std::span<Agent> agents;
@@ -32,6 +34,11 @@ class Signals {
 
   bool IsGreen(std::int64_t light) const {
     return out_.colours[static_cast<std::size_t>(light)] == network::LightColour::kGreen;
+  }
+  // What a controller with times shows at a moment, as far as it is known now.
+  network::LightColour ColourAt(std::int64_t light, std::int64_t time_ns) const {
+    const auto index = static_cast<std::size_t>(light);
+    return in_.holds.At(static_cast<std::uint32_t>(light), *in_.map.network->controllers()[index].times, time_ns);
   }
   void FindColours();
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;

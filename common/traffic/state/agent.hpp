@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
+#include <memory>
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/state.hpp"
@@ -16,6 +17,8 @@
 #include "common/world/lanes/graph.hpp"
 
 namespace rodeira::traffic {
+
+struct RequestedRoute;
 
 // One agent as others see it. B as for vehicles: midway between the axles, at the road's height; x forward, y left.
 struct AgentPose {
@@ -94,10 +97,11 @@ struct alignas(64) Agent {
   boost::container::small_vector<ZoneGrant, 1> grants;  // those that its rear has not left yet, as it meets them
   std::uint32_t entry = 0;                              // the track where it waits to enter
   std::uint32_t trip = 0;
-  std::int32_t flow = -1;     // to which it belongs; below 0: none
-  std::uint32_t arrival = 0;  // its number in the flow
-  std::uint32_t links = 0;    // passed on this trip: keys of the draws at branches
-  std::uint32_t leg = 0;      // how many roads of its route it has reached, at its front
+  std::int32_t flow = -1;                           // to which it belongs; below 0: none
+  std::uint32_t arrival = 0;                        // its number in the flow
+  std::uint32_t links = 0;                          // passed on this trip: keys of the draws at branches
+  std::uint32_t leg = 0;                            // how many roads of its route it has reached, at its front
+  std::shared_ptr<const RequestedRoute> requested;  // null: its route is its flow's, if that has one
   double driven_m = 0.0;
   double fuel_mg = 0.0;    // burnt on this trip
   double fuel_mgps = 0.0;  // in the last step

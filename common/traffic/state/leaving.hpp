@@ -12,8 +12,9 @@ enum class LeaveReason : std::uint8_t {
   kNetworkEnd,   // it has no route, and the network ends
   kRouteMissed,  // it did not reach a lane of its route, and the network ends
   kLaneEnd,      // its lane ends, while its route, or the lane beside, goes on
+  kRemoved,      // a request has removed it
 };
-inline constexpr std::size_t kLeaveReasons = 4;
+inline constexpr std::size_t kLeaveReasons = 5;
 
 struct Leaver {
   std::uint32_t id = 0;

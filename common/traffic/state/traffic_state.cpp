@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is saved of traffic, and how it goes on from there.
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "common/traffic/demand/requested_route.hpp"
 #include "common/traffic/simulation.hpp"
 
 namespace rodeira::traffic {
@@ -34,6 +41,34 @@ void Simulation::Save(base::StateWriter& writer) const {
     writer.Put("arrived", flow.arrived);
     writer.Put("given", flow.given);
     writer.Put("next_ns", flow.next_ns);
+  }
+  store.light_holds.Save(writer);
+  SaveRoutes(writer);
+}
+
+// Of vehicles with a route on request, which are few.
+void Simulation::SaveRoutes(base::StateWriter& writer) const {
+  for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
+    if (!store.agents[id].requested) continue;
+    writer.Put("route_of", id);
+    writer.Put("route", fmt::format("{}", fmt::join(store.agents[id].requested->ways, "\n")));
+  }
+}
+
+void Simulation::RestoreRoutes(base::StateReader& reader) {
+  for (Agent& agent : store.agents) agent.requested.reset();
+  while (reader.Has("route_of")) {
+    std::uint32_t id = 0;
+    std::string text;
+    reader.Get("route_of", id);
+    reader.Get("route", text);
+    RouteSettings asked;
+    std::istringstream lines(text);
+    for (std::string way; std::getline(lines, way);) asked.ways.push_back(way);
+    auto route = Route::Make(map->graph, map->marks, asked);
+    if (!route || id >= store.agents.size()) continue;
+    store.agents[id].requested =
+        std::make_shared<const RequestedRoute>(RequestedRoute{asked.ways, std::move(route).value()});
   }
 }
 
@@ -79,6 +114,8 @@ void Simulation::Restore(base::StateReader& reader) {
     reader.Get("given", flow.given);
     reader.Get("next_ns", flow.next_ns);
   }
+  store.light_holds.Restore(reader, map->network->controllers());
+  RestoreRoutes(reader);
   for (Agent& agent : store.agents) {
     const auto count = map->graph.tracks().size();
     if (agent.entry >= count ||

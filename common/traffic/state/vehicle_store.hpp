@@ -9,6 +9,7 @@
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/pedestrians/yielding.hpp"
+#include "common/traffic/signals/light_holds.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/flow_count.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
@@ -30,6 +31,7 @@ struct VehicleStore {
   std::vector<std::uint32_t> waiting;      // to enter, first come first
   std::vector<SpawningVehicle> appearing;  // in the order of the commands
   std::vector<FlowCount> flows;
+  LightHolds light_holds;
   std::uint64_t next_grant = 1;
   std::uint64_t ended = 0, missed = 0;  // trips; lanes for routes
   std::int64_t time_ns = 0;             // since the beginning

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/core/base/random.hpp"
+#include "common/traffic/demand/requested_route.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -13,6 +14,7 @@ constexpr std::uint64_t kDrawLink = 103;
 }  // namespace
 
 const Route* RouteOf(const TrafficMap& map, const Agent& agent) {
+  if (agent.requested) return &agent.requested->route;
   if (agent.flow < 0) return nullptr;
   const std::int64_t route = map.demand.flows()[static_cast<std::size_t>(agent.flow)].route;
   return route < 0 ? nullptr : &map.demand.route(route);

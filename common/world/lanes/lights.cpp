@@ -41,6 +41,14 @@ std::string Named(const Graph& graph, const LightPlace& light) {
          graph.network().roads()[lane.road].id() + "', lane " + std::to_string(lane.lane) + ")";
 }
 
+// Not from the same side, and not from opposite ones.
+bool FromDifferentSides(const Graph& graph, const LightPlace& a, const LightPlace& b) {
+  const Eigen::Vector2d from_a = graph[a.track].curve.At(a.d_m).ahead_W,
+                        from_b = graph[b.track].curve.At(b.d_m).ahead_W;
+  const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
+  return turned >= kSameDirection_rad && turned <= kHeadOn_rad;
+}
+
 }  // namespace
 
 std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along,
@@ -115,10 +123,7 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
     if (!a || !b) continue;
     const auto& controllers = graph.network().controllers();
     if (!network::MeetGreen(*controllers[a->controller].times, *controllers[b->controller].times)) continue;
-    const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W,
-                          from_b = graph[b->track].curve.At(b->d_m).ahead_W;
-    const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
-    if (turned < kSameDirection_rad || turned > kHeadOn_rad) continue;
+    if (!FromDifferentSides(graph, *a, *b)) continue;
     return GreenTogether{{a->controller, b->controller},
                          "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
                              " are green or amber together, and their ways " +
@@ -126,6 +131,17 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
                              "; phases that do not meet were expected"};
   }
   return std::nullopt;
+}
+
+std::vector<std::array<std::uint32_t, 2>> ConflictingControllers(const Graph& graph, const Zones& zones) {
+  std::set<std::array<std::uint32_t, 2>> pairs;
+  for (const Zone& zone : zones.zones()) {
+    if (zone.kind == ZoneKind::kDiverge) continue;
+    const auto a = LightFor(graph, zone.track[0], zone.in_m[0]), b = LightFor(graph, zone.track[1], zone.in_m[1]);
+    if (a && b && a->controller != b->controller && FromDifferentSides(graph, *a, *b))
+      pairs.insert({std::min(a->controller, b->controller), std::max(a->controller, b->controller)});
+  }
+  return {pairs.begin(), pairs.end()};
 }
 
 base::Status CheckLights(const Graph& graph, const Zones& zones) {

@@ -50,6 +50,10 @@ struct GreenTogether {
 // The first such two; nothing where there are none.
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
+// Controllers with times of lights that let vehicles go which come from different sides and cross or merge, in pairs of
+// indices, the lower one first; ascending. A turn across the way of oncoming traffic yields and is no such pair.
+std::vector<std::array<std::uint32_t, 2>> ConflictingControllers(const Graph& graph, const Zones& zones);
+
 // Wrong input where a light for vehicles is never green. Wrong input where two lights are green or amber together with
 // ways that come from different sides and cross or merge. A turn across the way of oncoming traffic may be
 // green with it: it yields. The two are named, with the line of the later one's green where that is known.

@@ -204,6 +204,26 @@ void Fields(V& v, msg::JointForces& m) {
   v("header", m.header()), v("joints", m.joints()), v("springs", m.springs()), v("end", m.end());
 }
 template <class V>
+void Fields(V& v, msg::TrafficRequest& m) {
+  v("number", m.number()), v("name", m.name()), v("agent", m.agent()), v("speed_mps", m.speed_mps()),
+      v("lane", m.lane()), v("station_m", m.station_m()), v("choice", m.choice()), v("roads", m.roads()),
+      v("light", m.light()), v("duration_s", m.duration_s());
+}
+template <class V>
+void Fields(V& v, msg::TrafficRequests& m) {
+  v("header", m.header()), v("requests", m.requests()), v("end", m.end());
+}
+template <class V>
+void Fields(V& v, msg::TrafficAnswer& m) {
+  v("source", m.source()), v("number", m.number()), v("refused", m.refused()), v("error_id", m.error_id()),
+      v("sentence", m.sentence()), v("agent", m.agent()), v("lane", m.lane()), v("station_m", m.station_m()),
+      v("roads", m.roads());
+}
+template <class V>
+void Fields(V& v, msg::TrafficAnswers& m) {
+  v("header", m.header()), v("answers", m.answers()), v("end", m.end());
+}
+template <class V>
 void Fields(V& v, msg::SignalGroup& m) {
   v("controller", m.controller()), v("colour", m.colour());
 }
@@ -391,6 +411,8 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::JointForces>(), "rodeira::msg::JointForces");
   use(TypeTag<msg::TrafficState>(), "rodeira::msg::TrafficState");
   use(TypeTag<msg::TrafficDetails>(), "rodeira::msg::TrafficDetails");
+  use(TypeTag<msg::TrafficRequests>(), "rodeira::msg::TrafficRequests");
+  use(TypeTag<msg::TrafficAnswers>(), "rodeira::msg::TrafficAnswers");
   use(TypeTag<msg::SignalsState>(), "rodeira::msg::SignalsState");
   use(TypeTag<msg::WeatherState>(), "rodeira::msg::WeatherState");
   use(TypeTag<msg::Measures>(), "rodeira::msg::Measures");
