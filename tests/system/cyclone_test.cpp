@@ -66,6 +66,11 @@ class Cyclone : public ::testing::Test {
         "--set",
         "nodes.ego.outputs=[joint_forces]",
         "--set",
+        "nodes.traffic.outputs=[traffic_answers]",
+        "--set",
+        "nodes.control={kind: external, program: \"" + Bin("rodeira-test-traffic-control") + "\", manifest: \"" +
+            SourceDir() + "/examples/own_traffic_control/control.yaml\", config: {light: none}}",
+        "--set",
         "nodes.pulse={kind: empty}",
         "--set",
         "nodes.gauge={kind: measures}",

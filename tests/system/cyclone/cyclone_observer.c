@@ -27,6 +27,7 @@
 #include "signals.h"
 #include "snapshot.h"
 #include "traffic.h"
+#include "traffic_requests.h"
 #include "trigger.h"
 #include "vehicle.h"
 #include "weather.h"
@@ -48,6 +49,8 @@ static struct Subject g_subjects[] = {
     {"rodeira/joint_forces", &rodeira_msg_JointForces_desc, 0, false},
     {"rodeira/traffic_state", &rodeira_msg_TrafficState_desc, 0, false},
     {"rodeira/traffic_details", &rodeira_msg_TrafficDetails_desc, 0, false},
+    {"rodeira/traffic_requests", &rodeira_msg_TrafficRequests_desc, 0, false},
+    {"rodeira/traffic_answers", &rodeira_msg_TrafficAnswers_desc, 0, false},
     {"rodeira/signals_state", &rodeira_msg_SignalsState_desc, 0, false},
     {"rodeira/scenario_events", &rodeira_msg_ScenarioEvents_desc, 0, false},
     {"rodeira/weather_state", &rodeira_msg_WeatherState_desc, 0, false},
