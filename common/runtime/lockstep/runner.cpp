@@ -76,14 +76,20 @@ Runner::Outcome Runner::Begin() {
       sample.header.Write(payload);
       sample.payload = std::make_shared<const base::Bytes>(std::move(payload));
     }
-    report_.steps = snapshot.steps;
-    report_.digest = snapshot.digest;
+    {
+      const std::lock_guard lock(report_mutex_);
+      report_.steps = snapshot.steps;
+      report_.digest = snapshot.digest;
+    }
     mailbox_.StartAt(snapshot.at);
   } else if (settings_.sink_from > 0) {
     RODEIRA_ASSERT(spec_.is_sink());
     if (auto status = node_.Initialise(outbox_); !status) return Fail(status.error());
     next_ = CeilTo(settings_.sink_from, spec_.period);
-    report_.steps = static_cast<std::uint64_t>(next_ / spec_.period);
+    {
+      const std::lock_guard lock(report_mutex_);
+      report_.steps = static_cast<std::uint64_t>(next_ / spec_.period);
+    }
     mailbox_.StartAt(next_);
   } else {
     if (auto status = node_.Initialise(outbox_); !status) return Fail(status.error());
@@ -97,6 +103,7 @@ Runner::Outcome Runner::Begin() {
         header.time_ns = valid * roster_.base_step_ns();
         header.Write(payload);
         first.push_back({header, std::make_shared<const base::Bytes>(std::move(payload))});
+        const std::lock_guard lock(report_mutex_);
         report_.digest = base::Combine(report_.digest, PayloadDigest(*first.back().payload));
       }
     }
