@@ -34,6 +34,10 @@ using namespace std::chrono_literals;
 
 constexpr std::array kPolicies = {"stop", "pause", "restart"};
 
+// Shared processes of the table, with their nodes.
+const std::map<std::string, std::vector<std::string>> kProcesses{{"cars", {"driver", "ego"}},
+                                                                 {"all", {"road", "driver", "ego", "recorder"}}};
+
 struct Cell {
   std::string part, cause, message, policy, outcome;
   std::string Name() const { return part + ", " + cause + ", " + policy; }
@@ -71,8 +75,24 @@ class CellRun {
 
   std::string Differences() {
     const bool to_its_end = cell_.outcome == "goes on";
-    Started run({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--run", name_, "--pace", "real", "--for",
-                 to_its_end ? "4" : "100", "--record", recording_, "--set", "recovery=" + cell_.policy});
+    std::vector<std::string> command{Bin("rodeira"),
+                                     "run",
+                                     LaunchFile("first_drive.yaml"),
+                                     "--run",
+                                     name_,
+                                     "--pace",
+                                     "real",
+                                     "--for",
+                                     to_its_end ? "4" : "100",
+                                     "--record",
+                                     recording_,
+                                     "--set",
+                                     "recovery=" + cell_.policy};
+    if (const auto group = kProcesses.find(cell_.part); group != kProcesses.end()) {
+      for (const std::string& node : group->second)
+        command.insert(command.end(), {"--set", fmt::format("nodes.{}.process={}", node, cell_.part)});
+    }
+    Started run(command);
     if (!Runs(name_)) return "the run did not begin: " + run.Wait(10s).out;
     const pid_t victim = Victim(run);
     if (victim <= 0) return cell_.Name() + ": the part was not found\n" + run.Wait(0s).out;
@@ -101,11 +121,13 @@ class CellRun {
   // The clock answers before each node's process has its own command line.
   pid_t Victim(const Started& run) const {
     if (cell_.part == "rodeira run") return run.pid();
+    if (kProcesses.contains(cell_.part)) return ProcessWith("--run " + name_ + " ", "--process " + cell_.part);
     return ProcessWith("--run " + name_ + " ", cell_.part == "clock" ? "/rodeira-clock" : "--node " + cell_.part);
   }
   // A recorder that was killed or stopped leaves a file without an end; every other one is closed.
   void CheckRecording() {
-    const bool had_no_time = cell_.part == "recorder" && cell_.cause != "SIGTERM" && cell_.outcome != "goes on";
+    const bool is_recorder = cell_.part == "recorder" || cell_.part == "all";
+    const bool had_no_time = is_recorder && cell_.cause != "SIGTERM" && cell_.outcome != "goes on";
     const Ended info = RunCommand({Bin("rodeira"), "info", recording_});
     if (info.status != 0 && !had_no_time) Add("the recording is not closed: " + info.out);
   }
@@ -121,7 +143,7 @@ class CellRun {
 class Ends : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_GT(table_.size(), 90u) << "docs/reference/ends.md";
+    ASSERT_GT(table_.size(), 120u) << "docs/reference/ends.md";
     for (const Cell& cell : table_) ASSERT_NE(SignalOf(cell.cause), 0) << cell.cause;
     const Ended calm = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "4", "--in-process",
                                    "--record", (folder_.path() / "calm.mcap").string()});
