@@ -14,6 +14,7 @@
 #include "common/core/base/files.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
@@ -157,6 +158,47 @@ TEST_F(OwnNode, RunsInOneProcessAsASharedObject) {
   EXPECT_THAT(together.out, HasSubstr("gaze_monitor: 201 samples"));
   EXPECT_EQ(DigestIn(together.out), DigestIn(apart.out));
   EXPECT_EQ(FirstDifference(SamplesOf(File("apart.mcap")), SamplesOf(File("together.mcap"))), "");
+}
+
+// Its shared object is loaded by the process that it shares with nodes of Rodeira and with another external one.
+TEST_F(OwnNode, InASharedProcessItHasTheSameDigest) {
+  const Ended apart = Run("apart.mcap", {"--for", "6"});
+  ASSERT_EQ(apart.status, 0) << apart.out;
+  std::vector<std::string> more{"--for", "6"};
+  for (const char* node : {"driver", "ego", "eye", "monitor"})
+    more.insert(more.end(), {"--set", std::string("nodes.") + node + ".process=cars"});
+  const Ended shared = Run("shared.mcap", more);
+  ASSERT_EQ(shared.status, 0) << shared.out;
+  EXPECT_THAT(shared.out, HasSubstr("gaze_monitor: 601 samples"));
+  EXPECT_EQ(DigestIn(shared.out), DigestIn(apart.out));
+  EXPECT_EQ(FirstDifference(SamplesOf(File("apart.mcap")), SamplesOf(File("shared.mcap"))), "");
+  const Ended restarted = [&] {
+    more.insert(more.end(), {"--pace", "2", "--set", "recovery=restart"});
+    Started run(Command("restarted.mcap", more));
+    EXPECT_TRUE(Runs(Name()));
+    WaitForGrowth(File("restarted.mcap"));
+    const pid_t victim = ProcessWith("--run " + Name(), "--process cars");
+    if (victim > 0) ::kill(victim, SIGKILL);
+    EXPECT_GT(victim, 0);
+    return run.Wait(60s);
+  }();
+  ASSERT_EQ(restarted.status, 0) << restarted.out;
+  EXPECT_THAT(restarted.out, Names("again … process 'cars' … signal 9"));
+  EXPECT_EQ(DigestIn(restarted.out), DigestIn(apart.out)) << restarted.out;
+}
+
+TEST_F(OwnNode, AWrongSharedObjectInASharedProcessIsRefused) {
+  const auto with = [&](const std::string& file) {
+    return Failure(
+        2, {"--set", "nodes.eye.library=" + file, "--set", "nodes.eye.process=p", "--set", "nodes.monitor.process=p"});
+  };
+  EXPECT_THAT(with("none.so"), HasSubstr("none.so"));
+  EXPECT_THAT(with(Bin("rodeira-test-other-build.so")), HasSubstr("rodeira-test-other-build.so"));
+  EXPECT_THAT(with("~"), HasSubstr("'library'"));
+  std::string text = base::ReadText(folder_.path() / "gaze.idl").value();
+  folder_.Write("gaze.idl", text.replace(text.find("double target_x_m"), 17, "float target_x_m"));
+  EXPECT_THAT(with("eye_tracker.so"), HasSubstr("lab/gaze"));
+  EXPECT_FALSE(fs::exists(File("never.mcap")));
 }
 
 TEST_F(OwnNode, IsVerifiedAndBranchedWithItsSharedObject) {
