@@ -12,6 +12,11 @@ namespace {
 
 const std::string kNotHeard = "no message from it";
 
+// The key of the launch file that says how long a step may take.
+std::string DeadlineKey(const RosterNode& node) {
+  return node.deadline_ms > 0 ? fmt::format("nodes.{}.deadline_s", node.name) : "limits.step_s";
+}
+
 }  // namespace
 
 Watchdog::Watchdog(const Roster& roster, const Settings& settings)
@@ -98,20 +103,23 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
         incarnation.report.since_ms > deadline_ms) {
       if (spec.role == Role::kService) {
         return Fault{n, fmt::format("node '{}' has been answering a request for {:.2f} s at step {}, its deadline is "
-                                    "{:.2f} s",
+                                    "{:.2f} s ({})",
                                     spec.name, static_cast<double>(incarnation.report.since_ms) / 1e3,
-                                    std::max<Step>(grant.through, 0), static_cast<double>(deadline_ms) / 1e3)};
+                                    std::max<Step>(grant.through, 0), static_cast<double>(deadline_ms) / 1e3,
+                                    DeadlineKey(spec))};
       }
-      return Fault{n,
-                   fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s", spec.name,
-                               incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3,
-                               static_cast<double>(deadline_ms) / 1e3)};
+      return Fault{
+          n, fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s ({})", spec.name,
+                         incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3,
+                         static_cast<double>(deadline_ms) / 1e3, DeadlineKey(spec))};
     }
     if (incarnation.report.phase == Phase::kRunning && incarnation.report.waiting == Waiting::kOutput &&
         incarnation.report.since_ms > settings_.start_ms) {
-      return Fault{n,
-                   fmt::format("node '{}' has been writing the output of the steps before {} for {:.0f} s", spec.name,
-                               incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3)};
+      return Fault{
+          n, fmt::format("node '{}' has been writing the output of the steps before {} for {:.0f} s, its limit is "
+                         "{:.0f} s (limits.start_s)",
+                         spec.name, incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3,
+                         static_cast<double>(settings_.start_ms) / 1e3)};
     }
   }
   everybody_ready_ = everybody_ready_ || missing.empty();

@@ -66,7 +66,8 @@ TEST_F(WatchdogTest, NamesANodeThatHangsByItsOwnDeadlineButNotOneThatWaits) {
   Hear(0, 0, Phase::kRunning, Waiting::kServer, 60000);
   EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kNothing, 301);
-  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason,
+            "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s (nodes.car.deadline_s)");
 }
 
 TEST_F(WatchdogTest, AServerThatAnswersNoMoreIsNamedWithTheStepOfTheRun) {
@@ -81,14 +82,15 @@ TEST_F(WatchdogTest, AServerThatAnswersNoMoreIsNamedWithTheStepOfTheRun) {
   report.since_ms = 2001;
   dog.Heard(report, 0);
   EXPECT_EQ(dog.Check(0, grant_)->reason,
-            "node 'road' has been answering a request for 2.00 s at step 480, its deadline is 2.00 s");
+            "node 'road' has been answering a request for 2.00 s at step 480, its deadline is 2.00 s (limits.step_s)");
 }
 
 TEST_F(WatchdogTest, ANodeThatWritesItsResultsHasAsLongAsAtTheStart) {
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
   EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5001);
-  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been writing the output of the steps before 7 for 5 s");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason,
+            "node 'car' has been writing the output of the steps before 7 for 5 s, its limit is 5 s (limits.start_s)");
 }
 
 TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
