@@ -63,7 +63,8 @@ PerWheel AntiLock::Step(const AntiLockSettings& settings, const AssistCar& car, 
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
     Control(settings, car, input, motion, i, wanted_Nm[i], dt_s);
     if (acts(i)) brake_Nm[i] = cap_Nm_[i];
-    brake_Nm[i] = std::min(brake_Nm[i], given_Nm_[i] + dt_s * settings.build_Nmps);
+    if (motion.GroundSpeed(car, input, i) > settings.min_speed_mps)
+      brake_Nm[i] = std::min(brake_Nm[i], given_Nm_[i] + dt_s * settings.build_Nmps);
   }
   if (wanted_Nm[2] == wanted_Nm[3]) brake_Nm[2] = brake_Nm[3] = std::min(brake_Nm[2], brake_Nm[3]);
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {

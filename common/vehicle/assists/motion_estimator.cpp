@@ -28,9 +28,9 @@ double FrontArm(const AssistCar& car) {
 
 double MotionEstimator::GroundSpeed(const AssistCar& car, const AssistInput& input, std::size_t wheel) const {
   const double along = speed_mps_ - input.yaw_rate_radps * HalfTrack(car, wheel);
-  if (wheel >= 2) return std::max(0.0, along);
+  if (wheel >= 2) return along;
   const double across = lateral_mps_ + input.yaw_rate_radps * FrontArm(car);
-  return std::max(0.0, along * std::cos(input.front_wheel_rad) + across * std::sin(input.front_wheel_rad));
+  return along * std::cos(input.front_wheel_rad) + across * std::sin(input.front_wheel_rad);
 }
 
 double MotionEstimator::Load(const AssistCar& car, const AssistInput& input, std::size_t wheel) const {
@@ -42,28 +42,34 @@ double MotionEstimator::Load(const AssistCar& car, const AssistInput& input, std
 }
 
 void MotionEstimator::Step(const AssistCar& car, const AssistInput& input, const PerWheel& brake_Nm, double dt_s) {
+  // Brakes that the driver does not press are those of the stability control, unless the engine pulls.
+  const bool brakes = input.is_braking || (input.throttle == 0.0 &&
+                                           std::ranges::any_of(brake_Nm, [](double torque) { return torque > 0.0; }));
+  PerWheel by_wheel_mps{};
+  double mean_mps = 0.0;
+  for (std::size_t i = 0; i < kAssistWheels; ++i) {
+    by_wheel_mps[i] = input.wheel_radps[i] * car.rolling_radius_m + input.yaw_rate_radps * HalfTrack(car, i);
+    mean_mps += 0.25 * by_wheel_mps[i];
+  }
+  // Speeds are counted along the way that the car goes, 1 forward, -1 backward; at standstill that its wheels turn.
+  const double way = speed_mps_ + mean_mps < 0.0 ? -1.0 : 1.0;
   double fastest = 0.0, slowest = 1e9;
   std::size_t leads = 0;
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
-    const double speed = input.wheel_radps[i] * car.rolling_radius_m + input.yaw_rate_radps * HalfTrack(car, i);
+    const double speed = way * by_wheel_mps[i];
     if (speed > fastest) fastest = speed, leads = i;
     slowest = std::min(slowest, speed);
   }
   slowest = std::max(0.0, slowest);
-  const double carried = speed_mps_ + dt_s * (input.forward_mps2 + input.yaw_rate_radps * lateral_mps_),
+  const double carried = way * (speed_mps_ + dt_s * (input.forward_mps2 + input.yaw_rate_radps * lateral_mps_)),
                drift = dt_s * kDrift_mps2;
-  // Brakes that the driver does not press are those of the stability control, unless the engine pulls.
-  const bool brakes = input.is_braking || (input.throttle == 0.0 &&
-                                           std::ranges::any_of(brake_Nm, [](double torque) { return torque > 0.0; }));
   lateral_mps_ += dt_s * (input.lateral_mps2 - input.yaw_rate_radps * speed_mps_ - lateral_mps_ / kForget_s);
-  if (!begun_)
-    speed_mps_ = fastest;
-  else if (brakes)  // a braked wheel turns too slowly, but one that is hardly braked is right
-    speed_mps_ = braking_N_[leads] < kRollsFreely * car.static_load_N[leads] ? std::max(fastest, carried - drift)
-                                                                             : std::max(fastest, carried);
-  else  // a driven one too fast
-    speed_mps_ = std::clamp(slowest, carried - drift, carried + drift);
-  speed_mps_ = std::max(0.0, speed_mps_);
+  double speed = fastest;
+  if (begun_ && brakes)  // a braked wheel turns too slowly, but one that is hardly braked is right
+    speed = std::max(fastest, braking_N_[leads] < kRollsFreely * car.static_load_N[leads] ? carried - drift : carried);
+  else if (begun_)  // a driven one too fast
+    speed = std::clamp(slowest, carried - drift, carried + drift);
+  speed_mps_ = way * speed;
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
     const double slows_radps2 = begun_ ? (before_radps_[i] - input.wheel_radps[i]) / dt_s : 0.0;
     const double force = (brake_Nm[i] - car.wheel_inertia_kgm2 * slows_radps2) / car.rolling_radius_m;

@@ -14,9 +14,9 @@ class MotionEstimator {
   // `brake_Nm`: torques of the brakes in the step before.
   void Step(const AssistCar& car, const AssistInput& input, const PerWheel& brake_Nm, double dt_s);
 
-  double speed_mps() const { return speed_mps_; }      // forward, at least 0
+  double speed_mps() const { return speed_mps_; }      // forward, below 0 backward
   double lateral_mps() const { return lateral_mps_; }  // to the left, at the centre of gravity
-  // Of the ground under a wheel along that wheel, m/s.
+  // Of the ground under a wheel along that wheel, below 0 backward, m/s.
   double GroundSpeed(const AssistCar& car, const AssistInput& input, std::size_t wheel) const;
   // Braking force of each tyre, smoothed over 30 ms, N.
   const PerWheel& braking_N() const { return braking_N_; }

@@ -19,7 +19,10 @@ double StabilityControl::Step(const StabilitySettings& settings, const AssistCar
   wanted = std::clamp(wanted, -most, most);
   wanted_radps_ += (wanted - wanted_radps_) * dt_s / (settings.lag_s + dt_s);
   if (v < settings.min_speed_mps) return throttle;
-  const double off = input.yaw_rate_radps - wanted_radps_;
+  // Cars differ in how much they understeer: none is off that turns less than a neutral one and more than the wanted.
+  const double neutral = std::clamp(wanted_radps_ * (1.0 + over * over), -most, most);
+  const auto [least, largest] = std::minmax(wanted_radps_, neutral);
+  const double off = input.yaw_rate_radps - std::clamp(input.yaw_rate_radps, least, largest);
   const double beyond = off - std::clamp(off, -settings.dead_radps, settings.dead_radps);
   if (beyond == 0.0) return throttle;
   // Turning on the spot faster than the way bends: the sideslip grows.

@@ -20,7 +20,7 @@ struct StabilitySettings {
 // Stability control: brakes turn the car towards the yaw rate that the driver steers for (A. T. van Zanten, R. Erhardt,
 // G. Pfaff, VDC, the vehicle dynamics control system of Bosch, SAE 950759). A car that turns too much is braked at the
 // wheels outside of the bend, the front one first, and gets no throttle; one that turns too little at the rear wheel
-// inside.
+// inside. Between the wanted yaw rate and that of a neutral car, V δ / L, no car is off.
 class StabilityControl {
  public:
   // Adds to the brakes' torques; returns the throttle.

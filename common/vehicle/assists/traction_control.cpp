@@ -14,8 +14,10 @@ double TractionControl::Step(const TractionSettings& settings, const AssistCar& 
   int driven = 0;
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
     if (!car.driven[i]) continue;
-    const double ground = motion.GroundSpeed(car, input, i);
-    slip[i] = (std::fabs(input.wheel_radps[i]) * car.rolling_radius_m - ground) / std::max(ground, settings.least_mps);
+    // Along the way that the wheel turns: a wheel that turns backward against a ground that goes backward.
+    const double turns = input.wheel_radps[i] * car.rolling_radius_m;
+    const double ground = std::copysign(1.0, turns) * motion.GroundSpeed(car, input, i);
+    slip[i] = (std::fabs(turns) - ground) / std::max(std::fabs(ground), settings.least_mps);
     mean += slip[i];
     ++driven;
   }
