@@ -34,9 +34,9 @@ TEST_P(PinnedRuns, KeepTheirDigest) {
 
 INSTANTIATE_TEST_SUITE_P(
     LaunchFiles, PinnedRuns,
-    ::testing::Values(PinnedRun{"demo.yaml", "edd5e062e8c76c1e"}, PinnedRun{"first_drive.yaml", "ce1b211ff3689fa2"},
-                      PinnedRun{"scripted.yaml", "dbb9efae7854cc9d"}, PinnedRun{"car_ahead.yaml", "6e707091942c3900"},
-                      PinnedRun{"rain.yaml", "2deb69171be00132"}, PinnedRun{"lights.yaml", "9d955d99e78d83e4"}));
+    ::testing::Values(PinnedRun{"demo.yaml", "2505b58430c63d34"}, PinnedRun{"first_drive.yaml", "29aa6c40f861ad31"},
+                      PinnedRun{"scripted.yaml", "762c30527b10ef14"}, PinnedRun{"car_ahead.yaml", "28687a59046a5daf"},
+                      PinnedRun{"rain.yaml", "ae7263a403afaa4d"}, PinnedRun{"lights.yaml", "e7be35f4aa5e8f5a"}));
 
 struct PinnedTraffic {
   const char* map;

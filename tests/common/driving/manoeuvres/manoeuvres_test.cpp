@@ -16,6 +16,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/common/vehicle/dynamics/every_model.hpp"
 #include "tests/common/vehicle/dynamics/test_car.hpp"
+#include "tests/common/vehicle/dynamics/with_assists.hpp"
 #include "tests/long_form.hpp"
 #include "tests/tree.hpp"
 
@@ -47,7 +48,7 @@ struct LinearCar {
   double front_Nprad = 8e4, rear_Nprad = 1e5;
 
   BicycleModel Make() const {
-    BicycleSettings s = dynamics::DefaultSettings();
+    BicycleSettings s = dynamics::SettingsWithoutAssists();
     s.body = {.mass_kg = mass_kg,
               .roll_inertia_kgm2 = 400,
               .pitch_inertia_kgm2 = 2000,
@@ -188,7 +189,7 @@ TEST(Manoeuvres, TheTopSpeedIsReachedAndNotGuessedEarly) {
 // brakes harder than (1 + 0.3) / 2 g, load transfer included a little more.
 TEST(Manoeuvres, ADistanceThatWasNotDrivenIsMissingWithItsReason) {
   for (const auto& kind : {dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody}) {
-    auto car = dynamics::MakeModel(kind);
+    auto car = dynamics::MakeWithoutAssists(kind);
     const Outcome outcome = Driven(SplitFriction(*car, kStep_s));
     if (const Figure* distance = outcome.Find("distance")) {
       EXPECT_GE(distance->value, 80.0 / 3.6 * 80.0 / 3.6 / (2.0 * 6.6)) << kind.name;

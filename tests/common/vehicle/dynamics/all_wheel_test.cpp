@@ -17,6 +17,7 @@
 #include "tests/common/vehicle/dynamics/every_model.hpp"
 #include "tests/common/vehicle/dynamics/same_bits.hpp"
 #include "tests/common/vehicle/dynamics/test_car.hpp"
+#include "tests/common/vehicle/dynamics/with_assists.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -155,7 +156,7 @@ struct Started {
 };
 
 Started StartOnIce(Centre centre, bool front_on_ice) {
-  BicycleSettings settings = DefaultSettings();
+  BicycleSettings settings = SettingsWithoutAssists();
   settings.powertrain = AllDriven(settings.powertrain, centre);
   double middle_x_m = 0.0;
   IcyAxle ground(middle_x_m, front_on_ice);

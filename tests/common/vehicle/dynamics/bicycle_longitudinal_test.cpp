@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/common/vehicle/dynamics/test_car.hpp"
+#include "tests/common/vehicle/dynamics/with_assists.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::dynamics {
@@ -153,7 +154,7 @@ TEST(BicycleRolling, CoastsDownAsTheClosedFormSays) {
 
 // Constant brake torques, no drag: d = v² / 2a with a = (sum T / R + f m g) / (m + 4 J / R²).
 TEST(BicycleBraking, StopsInVSquaredOverTwoA) {
-  BicycleSettings settings = DefaultSettings();
+  BicycleSettings settings = SettingsWithoutAssists();
   settings.body.drag_area_m2 = 0.0;
   PlaneGround ground;
   for (const double pedal : {0.2, 0.5}) {
@@ -170,7 +171,7 @@ TEST(BicycleBraking, StopsInVSquaredOverTwoA) {
 }
 
 TEST(BicycleBraking, FullPedalLocksTheFrontWheelsAndFrictionBoundsTheDeceleration) {
-  const BicycleSettings settings = DefaultSettings();
+  const BicycleSettings settings = SettingsWithoutAssists();
   PlaneGround ground;
   BicycleModel car = PlacedCar(settings, ground, {.speed_mps = 30.0});
   Drive(car, ground, InNeutral(1.0), 1.5);
@@ -347,7 +348,7 @@ class SplitGround final : public ground::Ground {
 TEST(BicycleOnSplitFriction, PlatesHelpAsMuchAsTheirLockingValueSays) {
   const auto started = [](double locking) {
     SplitGround ground;
-    BicycleSettings settings = DefaultSettings();
+    BicycleSettings settings = SettingsWithoutAssists();
     settings.powertrain.differential.locking_drive = locking;
     BicycleModel car = PlacedCar(settings, ground);
     Controls controls;

@@ -10,7 +10,7 @@
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
-#include "tests/common/vehicle/dynamics/every_model.hpp"
+#include "tests/common/vehicle/dynamics/with_assists.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::dynamics {
@@ -69,7 +69,7 @@ TEST_P(Pedals, ASmallPedalManoeuvresTheCar) {
 // A locked tyre that comes to rest is a spring of stiffness K / sigma under its friction D: it holds 1/2 D² sigma / K,
 // 51 J of the car of 1050 kg, which throws it back by 0.31 m/s at most (tests of the case: 171 J, 0.56 m/s, 40 mm).
 TEST_P(Pedals, AStopWithLockedWheelsDoesNotThrowTheCarBack) {
-  auto car = MakeModel(GetParam());
+  auto car = MakeWithoutAssists(GetParam());
   PlaneGround ground;
   ASSERT_TRUE(car->Initialise({.speed_mps = 14.0}, ground).ok());
   bool stood = false;
