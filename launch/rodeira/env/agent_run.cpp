@@ -12,6 +12,7 @@
 #include "common/runtime/replay/recorded_node.hpp"
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/input_files.hpp"
+#include "launch/rodeira/named_inputs.hpp"
 #include "launch/rodeira/run/launch_path.hpp"
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "nodes/input/input_node.hpp"
@@ -64,7 +65,9 @@ base::Result<std::unique_ptr<AgentRun>> AgentRun::Make(const std::string& launch
   if (!file) return file.error();
   std::unique_ptr<AgentRun> made(new AgentRun);
   made->launch_file_ = file.value();
-  made->overrides_ = WithFilesFromHere(set, made->launch_file_);
+  const auto named = WithNamedInputs(set, made->launch_file_, "--set");
+  if (!named) return named.error();
+  made->overrides_ = WithFilesFromHere(named.value(), made->launch_file_);
   auto launch = launch::Launch::Load(made->launch_file_, made->overrides_);
   if (!launch) return launch.error();
   if (auto status = CheckAgent(launch.value(), agent); !status) return status.error();

@@ -14,6 +14,7 @@
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/named_inputs.hpp"
 #include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/run/operator.hpp"
@@ -47,7 +48,9 @@ base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphi
   wish.parent = options.file;
   wish.at = steps(*options.from_s);
   if (options.for_s) wish.last_step = wish.at + steps(*options.for_s);
-  for (const auto& [key, value] : options.changes) wish.changes.emplace_back(key, WithFilesFromHere(value));
+  const auto named = WithNamedInputs(options.changes, parent.value().launch().path(), "--branch");
+  if (!named) return named.error();
+  for (const auto& [key, value] : named.value()) wish.changes.emplace_back(key, WithFilesFromHere(value));
   auto libraries = LibrariesOf(options);
   if (!libraries) return libraries.error();
   wish.libraries = std::move(libraries).value();

@@ -21,6 +21,7 @@
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/input_files.hpp"
+#include "launch/rodeira/named_inputs.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/launch_path.hpp"
 #include "launch/rodeira/run/node_processes.hpp"
@@ -94,7 +95,9 @@ int Run(const RunOptions& given) {
   options.launch_file = std::move(file).value();
   if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)
     return base::PrintError("rodeira", pace.error());
-  launch::Overrides overrides = WithFilesFromHere(options.overrides, options.launch_file);
+  const auto named = WithNamedInputs(options.overrides, options.launch_file, "--set");
+  if (!named) return base::PrintError("rodeira", named.error());
+  launch::Overrides overrides = WithFilesFromHere(named.value(), options.launch_file);
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
   Placement placement;
