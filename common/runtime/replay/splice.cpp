@@ -202,11 +202,16 @@ class Splicer {
 
 }  // namespace
 
+base::Status CheckNewRecording(const fs::path& target) {
+  std::error_code problem;
+  if (!fs::exists(target, problem)) return {};
+  return base::WrongInput("file.exists", "the file exists; a recording is never overwritten", target.string());
+}
+
 base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about,
                     const fs::path& target, const std::function<bool()>& stop_requested) {
   std::error_code problem;
-  if (fs::exists(target, problem))
-    return base::WrongInput("file.exists", "the file exists; a recording is never overwritten", target.string());
+  if (auto status = CheckNewRecording(target); !status) return status;
   const auto reader = record::McapReader::Open(branch);
   if (!reader) return reader.error();
   const fs::path part = target.string() + fmt::format(".{}.part", ::getpid());

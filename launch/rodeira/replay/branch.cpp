@@ -2,6 +2,7 @@
 #include "launch/rodeira/replay/branch.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -11,6 +12,7 @@
 #include "common/runtime/replay/recorded_node.hpp"
 #include "common/runtime/replay/splice.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
+#include "launch/rodeira/replay/branch_ground.hpp"
 #include "launch/rodeira/replay/continued_node.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
@@ -93,9 +95,27 @@ base::Status CheckExternalNodes(const replay::RecordedRun& parent) {
 
 using GoingOn = std::map<NodeIndex, ContinuedNode*>;
 
+// The changes name the node, or one of its keys.
+bool IsNamed(const std::string& node, const launch::Overrides& changes) {
+  const std::string own = "nodes." + node;
+  return std::any_of(changes.begin(), changes.end(),
+                     [&](const auto& change) { return change.first == own || change.first.starts_with(own + "."); });
+}
+
+// The keys of a node among the changes; all of them where none is its own.
+std::string KeysThatChange(const std::string& node, const launch::Overrides& changes) {
+  std::vector<std::string> own, all;
+  for (const auto& [key, value] : changes) {
+    all.push_back(key);
+    if (IsNamed(node, {{key, value}})) own.push_back(key);
+  }
+  return fmt::format("{}", fmt::join(own.empty() ? all : own, ", "));
+}
+
 // Each node's state for its new model, but for those that go on themselves; the names of those that had to take over.
 base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes,
-                                             const GoingOn& go_on, std::vector<Snapshot>& snapshots) {
+                                             const GoingOn& go_on, const launch::Overrides& changes,
+                                             std::vector<Snapshot>& snapshots) {
   std::vector<std::string> taken_over;
   for (NodeIndex n = 0; n < nodes.size(); ++n) {
     if (nodes[n] == nullptr || go_on.contains(n)) continue;
@@ -111,7 +131,8 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
       if (in.Finish().ok()) continue;
     }
     if (auto status = nodes[n]->InitialiseFrom(snapshots[n].samples); !status) {
-      return status.error().In(fmt::format("node '{}'", roster.node(n).name));
+      return status.error().In(
+          fmt::format("node '{}', changed {}", roster.node(n).name, KeysThatChange(roster.node(n).name, changes)));
     }
     taken_over.push_back(roster.node(n).name);
     snapshots[n].has_state = nodes[n]->can_save();
@@ -122,13 +143,6 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
     snapshots[n].state = out.bytes();
   }
   return taken_over;
-}
-
-// The changes name the node, or one of its keys.
-bool IsNamed(const std::string& node, const launch::Overrides& changes) {
-  const std::string own = "nodes." + node;
-  return std::any_of(changes.begin(), changes.end(),
-                     [&](const auto& change) { return change.first == own || change.first.starts_with(own + "."); });
 }
 
 // Those without a state that the changes leave as they are.
@@ -223,6 +237,8 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   if (!changed) return changed.error();
   const auto last_step = LastStep(changed.value(), wish);
   if (!last_step) return last_step.error();
+  if (auto status = CheckGroundOfBranch(parent.value(), changed.value(), wish.changes, wish.at); !status)
+    return status.error();
   const launch::Launch& launch = changed.value().launch();
   const std::vector<bool> persons = Persons(launch, wish.changes);
   outcome.live = NamesOf(launch, persons);
@@ -259,7 +275,7 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   }
   for (const auto& [n, continued] : go_on)
     continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
-  auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, snapshots);
+  auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, wish.changes, snapshots);
   if (!taken_over) return changed.value().Named(taken_over.error());
   outcome.taken_over = std::move(taken_over).value();
 

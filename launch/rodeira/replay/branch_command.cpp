@@ -33,6 +33,7 @@ base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphi
   if (options.record.empty())
     return base::WrongInput("command.missing_option", "--record is missing; name a new file for the branch",
                             "replay --branch");
+  if (auto status = replay::CheckNewRecording(options.record); !status) return status.error();
   const auto parent = replay::RecordedRun::Open(options.file);
   if (!parent) return parent.error();
   const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());

@@ -18,6 +18,7 @@
 #include "launch/rodeira/replay/recording_audit.hpp"
 #include "launch/rodeira/replay/verify.hpp"
 #include "tests/launch/rodeira/replay/replay_fixture.hpp"
+#include "tests/names.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
 
@@ -250,6 +251,10 @@ TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
   const auto verdict = Verify(branch.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
+  // Another number of vehicles is refused: their states are the parent's.
+  const auto more = Branch({file, 2000, {{"nodes.traffic.config.vehicles", "21"}}, 2100, wish.recording + "2"});
+  ASSERT_FALSE(more.ok());
+  EXPECT_THAT(more.error(), IsError("run.cannot_restore", "'traffic' … nodes.traffic.config.vehicles"));
 }
 
 // Unchanged, it goes on itself, to the bit: no other one could stand where it stood.
