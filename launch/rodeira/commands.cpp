@@ -15,6 +15,7 @@
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/json_option.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -47,6 +48,7 @@ int RunCommandLine(int argc, char** argv) {
         AddMeasures, AddReport,    AddSchema, AddReplay,  AddView,     AddEnv,     AddShell}) {
     add(app, chosen);
   }
+  AddForce(app);
   AddJson(app);
   try {
     app.parse(argc, argv);
@@ -55,6 +57,7 @@ int RunCommandLine(int argc, char** argv) {
       return app.exit(problem);  // --help, --version
     return base::PrintError("", OptionError(app, problem));
   }
+  if (auto status = CheckResults(app); !status) return base::PrintError("", status.error());
   return chosen.Run();
 }
 

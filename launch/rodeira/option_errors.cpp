@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <string_view>
 
 #include "common/core/base/suggest.hpp"
@@ -152,17 +151,6 @@ CLI::Validator WholeNumber() {
                    : fmt::format("'{}' was found; a whole number from 0 on was expected", text);
       },
       "NUMBER");
-}
-
-CLI::Validator NewFile() {
-  return CLI::Validator(
-      [](std::string& text) {
-        const std::filesystem::path folder = std::filesystem::path(text).parent_path();
-        std::error_code problem;
-        if (folder.empty() || std::filesystem::is_directory(folder, problem)) return std::string();
-        return fmt::format("'{}' was found; there is no folder '{}'", text, folder.string());
-      },
-      "FILE");
 }
 
 namespace {

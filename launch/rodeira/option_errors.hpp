@@ -26,9 +26,6 @@ CLI::Validator Between(double low, double high);
 // A whole number from 0 to 2^64 - 1, as a seed is.
 CLI::Validator WholeNumber();
 
-// A file to be written, in a folder that is there.
-CLI::Validator NewFile();
-
 // "what is wrong (see 'COMMAND --help')" of the command, which is the error's context: an unknown word with the nearest
 // known one; otherwise the parser's own words. Wrong input.
 base::Error OptionError(const CLI::App& app, const CLI::ParseError& problem);

@@ -5,6 +5,7 @@
 
 #include "launch/rodeira/commands/input_command.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -14,8 +15,10 @@ void AddInput(CLI::App& app, ChosenCommand& chosen) {
   input->require_subcommand(1);
   CLI::App* setup =
       input->add_subcommand("setup", "find out what turns and what is pressed, by moving it, and write a wheel file");
-  setup->add_option("-o,--out", options->out,
-                    "wheel file; otherwise one in the user's configuration, by the device's GUID");
+  setup
+      ->add_option("-o,--out", options->out,
+                   "wheel file; otherwise one in the user's configuration, by the device's GUID")
+      ->check(NewFile());
   setup
       ->add_option("--lock-deg", options->lock_deg,
                    "angle of the car's steering wheel at the device's end, from straight ahead")

@@ -5,6 +5,7 @@
 
 #include "launch/rodeira/commands/measures_command.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -20,7 +21,8 @@ void AddMeasures(CLI::App& app, ChosenCommand& chosen) {
       "may be +SECONDS (task=mark:begin..+20); or NAME=while CONDITION (fast=while speed_mps > 20)");
   command->add_option("--baseline", options->baseline, "name of the interval that is the driver's baseline");
   command->add_option("--subject", options->subject, "vehicle node, or agent:ID; otherwise the first vehicle");
-  command->add_option("-o,--out", options->out, "table to write, .csv or .json; otherwise a text is printed");
+  command->add_option("-o,--out", options->out, "table to write, .csv or .json; otherwise a text is printed")
+      ->check(NewFile());
   command->add_flag("--long", options->long_format, "a row a value, with unit, n, valid share and options");
   command->add_option("--series", options->series, "write the time series of one recording into this CSV file")
       ->check(NewFile());

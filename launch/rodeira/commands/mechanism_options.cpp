@@ -5,6 +5,7 @@
 
 #include "launch/rodeira/commands/mechanism_command.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 

@@ -10,6 +10,7 @@
 #include "launch/rodeira/key_values.hpp"
 #include "launch/rodeira/option_errors.hpp"
 #include "launch/rodeira/replay/replay_command.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -22,8 +23,9 @@ void AddReplay(CLI::App& app, ChosenCommand& chosen) {
   CLI::Option* view = replay->add_flag("--view", options->view, "watch it, or the branch, in a window");
   replay->add_option("--speed", options->watch.speed, "times real time, 0.1 to 10")->needs(view)->capture_default_str();
   replay->add_flag("--paused", options->watch.paused, "begin standing still")->needs(view);
-  CLI::Option* frames = replay->add_option("--frames", options->watch.frames,
-                                           "folder: write pictures (PNG) as the run's view would have");
+  CLI::Option* frames =
+      replay->add_option("--frames", options->watch.frames, "folder: write pictures (PNG) as the run's view would have")
+          ->check(NewFolder());
   CLI::Option* at = replay->add_option("--at", options->watch.at_s, "simulated seconds of the pictures")->needs(frames);
   replay
       ->add_option("--fps", options->watch.fps,

@@ -3,6 +3,7 @@
 
 #include "launch/rodeira/commands/all_commands.hpp"
 #include "launch/rodeira/commands/report_command.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -11,7 +12,7 @@ void AddReport(CLI::App& app, ChosenCommand& chosen) {
   CLI::App* command = app.add_subcommand(
       "report", "write a page about recordings: map, curves over time, distributions, measures (HTML, one file)");
   command->add_option("FILE.mcap", options->recordings, "recordings, side by side on the page")->required();
-  command->add_option("-o,--out", options->out, "page to write, .html")->required();
+  command->add_option("-o,--out", options->out, "page to write, .html")->required()->check(NewFile());
   command->add_option("--spec", options->spec, "measures file (YAML): intervals, measures and their options");
   command->add_option("--intervals", options->intervals, "NAME=FROM..TO or NAME=while CONDITION, as of `measures`");
   command->add_option("--baseline", options->baseline, "name of the interval that is the driver's baseline");

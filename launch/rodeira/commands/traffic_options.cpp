@@ -5,6 +5,7 @@
 
 #include "launch/rodeira/commands/traffic_command.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -29,7 +30,8 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
   run->add_option("--settings", options->settings,
                   "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options->csv,
-                  "folder for trajectories.csv, signals.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
+                  "folder for trajectories.csv, signals.csv, lanes.csv, queues.csv, flows.csv, trips.csv")
+      ->check(NewFolder());
   run->add_option("--rows-every", options->rows_every_s,
                   "seconds a row of trajectories.csv, of floating car data and of the diagram")
       ->check(PositiveSeconds())

@@ -5,6 +5,7 @@
 
 #include "launch/rodeira/commands/vehicle_command.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 
@@ -27,7 +28,8 @@ void AddVehicle(CLI::App& app, ChosenCommand& chosen) {
   test->add_option("--step", options->step_s, "step in seconds")->capture_default_str();
   test->add_option("--csv", options->csv, "write the motion over time into this file")->check(NewFile());
   test->add_option("--svg", options->svg, "draw it into this file")->check(NewFile());
-  CLI::Option* out = test->add_option("--out", options->out, "folder: NAME.csv and NAME.svg of each manoeuvre");
+  CLI::Option* out =
+      test->add_option("--out", options->out, "folder: NAME.csv and NAME.svg of each manoeuvre")->check(NewFolder());
   test->add_flag("--forces", options->forces,
                  "also NAME_forces.csv and NAME_forces.svg: forces in the joints and springs of a multibody car")
       ->needs(out);
@@ -38,8 +40,9 @@ void AddVehicle(CLI::App& app, ChosenCommand& chosen) {
   rig->add_option("VEHICLE.yaml", options->file, "vehicle file, or its name (prototype)")->required();
   rig->add_option("--travel", options->travel_m, "largest travel up and down, in m")->capture_default_str();
   rig->add_option(
-      "--out", options->out,
-      "folder: travel.csv and travel.svg over travel, steering.csv and steering.svg over the steering wheel");
+         "--out", options->out,
+         "folder: travel.csv and travel.svg over travel, steering.csv and steering.svg over the steering wheel")
+      ->check(NewFolder());
   rig->add_flag("--quiet", options->quiet, "no table");
   chosen.When(*rig, run("rig"));
   CLI::App* tyre = vehicle->add_subcommand("tyre", "read a tyre file, check it, print its figures and draw it");

@@ -80,7 +80,7 @@ base::Status Import(const WorldImportOptions& options) {
                             options.out);
   const std::filesystem::path roads = std::filesystem::path(world).replace_extension(".xodr");
   for (const std::filesystem::path& file : {world, roads}) {
-    if (auto status = NotThere(file); !status) return status;
+    if (auto status = options.force ? base::Status() : NotThere(file); !status) return status;
   }
   CatchInterrupts();
   const auto imported = [&] {

@@ -8,6 +8,7 @@
 #include "launch/rodeira/commands/world_command.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/result_files.hpp"
 
 namespace rodeira::cli {
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "common/core/base/result.hpp"
+
+// One rule for every file and folder of results that an option names: what exists is refused, `--force` replaces it.
+// Options belong to it by their validator, NewFile or NewFolder.
+namespace rodeira::cli {
+
+// A file to be written, in a folder that is there.
+CLI::Validator NewFile();
+// A folder to write files into; it is made where it is missing.
+CLI::Validator NewFolder();
+
+// Adds `--force` to each command of `app` with such an option.
+void AddForce(CLI::App& app);
+
+// After parsing: whether the command line of `command` has `--force`.
+bool IsForced(const CLI::App& command);
+
+// After parsing: wrong input where such an option of the chosen command names a regular file, or a folder that is not
+// empty, and the command line has no `--force`. Devices and pipes are written to.
+base::Status CheckResults(CLI::App& app);
+
+}  // namespace rodeira::cli
