@@ -13,6 +13,7 @@
 #include "common/driving/scenario/event.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/vehicle_notes.hpp"
+#include "common/world/road/start_place.hpp"
 #include "common/world/road/world.hpp"
 #include "common/world/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
@@ -238,6 +239,12 @@ std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::
   return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
+void WarnOfStart(const Settings& settings, const road::World* world, const std::string& node) {
+  if (world == nullptr || world->network() == nullptr) return;
+  const std::string beside = road::StartBesideRoads(*world->network(), settings.initial.x_m, settings.initial.y_m);
+  if (!beside.empty()) base::Log(base::LogLevel::kWarning, node, beside);
+}
+
 // Wrong input where the launch file asks a model without joints for their forces.
 base::Result<bool> PublishesJointForces(launch::NodeContext& context, const dynamics::VehicleModel& model) {
   const lockstep::Roster& roster = context.launch().roster();
@@ -280,6 +287,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
     if (!made) return made.error();
     world = std::move(made).value();
   }
+  WarnOfStart(settings, world.get(), context.spec().name);
   std::unique_ptr<ground::Ground> own = own_ground ? world->MakeGround() : nullptr;
   ground::Ground& ground = own != nullptr ? *own : context.Ground();
   std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);

@@ -14,6 +14,7 @@
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/passes.hpp"
 #include "common/world/road/road_chains.hpp"
+#include "common/world/road/start_place.hpp"
 #include "common/world/road/unjoined.hpp"
 #include "common/world/road/world_reader.hpp"
 #include "common/world/terrain/geographic.hpp"
@@ -99,6 +100,11 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
             sentence.text));
       }
     }
+  }
+  if (reading.spec && reading.spec->network != nullptr && file.value().root().OptionalChild("start").Has("x_m")) {
+    const StartPose& start = reading.spec->start;
+    if (const std::string beside = StartBesideRoads(*reading.spec->network, start.x_m, start.y_m); !beside.empty())
+      reading.warnings.push_back(fmt::format("{}: {}", file.value().root().Place("start"), beside));
   }
   return std::move(reading.warnings);
 }

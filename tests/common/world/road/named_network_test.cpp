@@ -11,6 +11,7 @@
 #include "common/world/road/world.hpp"
 #include "common/world/road/world_report.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -86,6 +87,14 @@ TEST_F(NamedNetwork, SaysWhereTheCarStartsAndHowTheRoadGrips) {
   ASSERT_TRUE(posed.ok()) << posed.error().Text();
   EXPECT_EQ(posed.value()->start().x_m, 12.0);
   EXPECT_NEAR(posed.value()->start().heading_rad, std::acos(0.0), 1e-12);
+}
+
+// Its lanes are 3.5 m wide on both sides of y = 0.
+TEST_F(NamedNetwork, AStartBesideTheRoadIsAWarning) {
+  ASSERT_TRUE(With(std::string(kNetwork) + "start: {x_m: 12, y_m: -1}\n").ok());
+  EXPECT_TRUE(WorldWarnings(path_).empty());
+  ASSERT_TRUE(With(std::string(kNetwork) + "start: {x_m: 12, y_m: -10}\n").ok());
+  EXPECT_THAT(WorldWarnings(path_), testing::ElementsAre(Names("town.yaml:4: … (12.0, -10.0) … 6.5 m … road '1'")));
 }
 
 TEST_F(NamedNetwork, WhatDoesNotFitIsRefusedWithItsPlace) {
