@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/core/base/suggest.hpp"
+#include "common/world/road/road_chains.hpp"
 
 namespace rodeira::traffic {
 
@@ -47,21 +48,20 @@ bool IsSound(OrderKind kind, double value) {
 }
 
 base::Result<PlaceOrder> PlaceOrders::At(const TrafficModel& model, std::string_view road, double s_m) {
-  const auto& roads = model.graph().network().roads();
-  const auto found = std::find_if(roads.begin(), roads.end(), [&](const network::Road& r) { return r.id() == road; });
-  if (found == roads.end()) {
-    std::vector<std::string> names;
-    for (const network::Road& r : roads) names.push_back(r.id());
-    return base::WrongInput("world.unknown_road",
-                            fmt::format("there is no road '{}'{}", road, base::DidYouMean(std::string(road), names)));
-  }
-  if (!(s_m >= 0.0 && s_m <= found->length_m()))
+  const network::Network& network = model.graph().network();
+  const auto found = road::FindRoadOrChain(network, road);
+  if (!found)
+    return base::WrongInput(
+        "world.unknown_road",
+        fmt::format("there is no road '{}'{}", road, base::DidYouMean(std::string(road), road::NamesOfRoads(network))));
+  if (!(s_m >= 0.0 && s_m <= found->length_m))
     return base::WrongInput(
         "traffic.off_the_road",
-        fmt::format("the station {} m is not on the road '{}', which is {:.2f} m long", s_m, road, found->length_m()));
+        fmt::format("the station {} m is not on the road '{}', which is {:.2f} m long", s_m, road, found->length_m));
+  const auto [part, along_m] = found->At(network, s_m);
   PlaceOrder order;
-  order.road = static_cast<std::uint32_t>(found - roads.begin());
-  order.s_m = s_m;
+  order.road = static_cast<std::uint32_t>(part - network.roads().data());
+  order.s_m = along_m;
   return order;
 }
 

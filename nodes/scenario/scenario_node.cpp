@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "common/core/base/log.hpp"
@@ -33,12 +35,19 @@ class Stations {
  public:
   Stations(const network::Network& network, road::RoadChain chain)
       : length_m_(chain.length_m), network_(&network), chain_(std::move(chain)) {
-    const std::string& first = network.roads()[chain_.parts.front().road].id();
-    id_ = first.substr(0, first.find('/'));  // what remains of a road between junctions is ID/1, ID/2 …
+    id_ = road::IdOf(network, chain_);  // what remains of a road between junctions is ID/1, ID/2 …
   }
 
   const std::string& id() const { return id_; }
   double length_m() const { return length_m_; }
+  // Where the part ID/1, ID/2 … begins, and its length; nothing: the road has no such part.
+  std::optional<std::pair<double, double>> PartOf(std::string_view id) const {
+    for (const road::RoadChain::Part& part : chain_.parts) {
+      const network::Road& road = network_->roads()[part.road];
+      if (road.id() == id) return std::pair(part.from_s_m, road.length_m());
+    }
+    return std::nullopt;
+  }
 
   // Where the car is along the road: kNowhere where it is not on this one. In a junction, on a way that is another
   // road's, nothing new is known: `before_m` again.
@@ -303,8 +312,16 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
       return base::WrongInput("launch.not_wired",
                               "'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario",
                               event.place);
+    double begin_m = 0.0;
+    std::optional<double> length_m;  // of the part that is named
     auto road = std::find(names.begin(), names.end(), event.road);
     if (event.road.empty() && names.size() == 1) road = names.begin();
+    for (std::size_t i = 0; road == names.end() && i < roads.size(); ++i) {
+      const auto part = roads[i].PartOf(event.road);
+      if (!part) continue;
+      road = names.begin() + static_cast<std::ptrdiff_t>(i);
+      begin_m = part->first, length_m = part->second;
+    }
     if (event.road.empty() && names.size() > 1) {
       return base::WrongInput(
           "scenario.no_road_named",
@@ -314,16 +331,17 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
     }
     if (road == names.end())
       return base::WrongInput("world.unknown_road",
-                              fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
+                              fmt::format("there is no road '{}'{}", event.road,
+                                          base::DidYouMean(event.road, road::NamesOfRoads(*world.network()))),
                               event.place);
     const Stations& found = roads[static_cast<std::size_t>(road - names.begin())];
-    if (event.passes_m > found.length_m()) {
-      return base::WrongInput(
-          "scenario.off_the_road",
-          fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()),
-          event.place);
+    if (event.passes_m > length_m.value_or(found.length_m())) {
+      return base::WrongInput("scenario.off_the_road",
+                              fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m,
+                                          length_m ? event.road : found.id(), length_m.value_or(found.length_m())),
+                              event.place);
     }
-    gates.emplace_back(found, event.passes_m);
+    gates.emplace_back(found, begin_m + event.passes_m);
   }
   return gates;
 }

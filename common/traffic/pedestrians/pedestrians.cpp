@@ -12,6 +12,7 @@
 #include "common/core/base/suggest.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/traffic/demand/arrivals.hpp"
+#include "common/world/road/road_chains.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -34,10 +35,9 @@ constexpr std::array<std::uint32_t, 6> kClothes{0x2F4B6E, 0x7A2E2E, 0x3E5B3A, 0x
 }  // namespace
 
 std::string WithoutCrossing(const network::Network& network, std::string_view road) {
-  if (network.FindRoad(road)) return fmt::format("the road '{}' has no crossing for people on foot", road);
-  std::vector<std::string> ids;
-  for (const network::Road& other : network.roads()) ids.push_back(other.id());
-  return fmt::format("there is no road '{}'{}", road, base::DidYouMean(road, ids));
+  if (road::FindRoadOrChain(network, road))
+    return fmt::format("the road '{}' has no crossing for people on foot", road);
+  return fmt::format("there is no road '{}'{}", road, base::DidYouMean(road, road::NamesOfRoads(network)));
 }
 
 base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lanes::LargestCar& car,
@@ -80,11 +80,17 @@ std::int64_t Pedestrians::NextAt(std::uint32_t crossing) const {
 
 std::optional<std::uint32_t> Pedestrians::Nearest(const network::Network& network, std::string_view road,
                                                   double s_m) const {
-  const auto index = network.FindRoad(road);
+  const auto named = road::FindRoadOrChain(network, road);
   std::optional<std::uint32_t> nearest;
-  for (std::uint32_t c = 0; index && c < crossings().size(); ++c) {
-    if (crossings()[c].road != *index) continue;
-    if (!nearest || std::fabs(crossings()[c].s_m - s_m) < std::fabs(crossings()[*nearest].s_m - s_m)) nearest = c;
+  double least_m = 0.0;
+  for (std::uint32_t c = 0; named && c < crossings().size(); ++c) {
+    for (const road::RoadChain::Part& part : named->parts) {
+      if (crossings()[c].road != part.road) continue;
+      const double away_m = std::fabs(part.from_s_m + crossings()[c].s_m - s_m);
+      if (nearest && !(away_m < least_m)) continue;
+      nearest = c;
+      least_m = away_m;
+    }
   }
   return nearest;
 }

@@ -25,6 +25,35 @@ std::pair<const network::Road*, double> RoadChain::At(const network::Network& ne
   return {&network.roads()[part->road], s_m - part->from_s_m};
 }
 
+std::string IdOf(const network::Network& network, const RoadChain& chain) {
+  const std::string& first = network.roads()[chain.parts.front().road].id();
+  return first.substr(0, first.find('/'));
+}
+
+std::optional<RoadChain> FindRoadOrChain(const network::Network& network, std::string_view name) {
+  if (const auto road = network.FindRoad(name)) {
+    const network::Road& found = network.roads()[*road];
+    return RoadChain{found.id(), {{*road, 0.0}}, found.length_m()};
+  }
+  for (RoadChain& chain : ChainsOf(network)) {
+    if (IdOf(network, chain) == name) return std::move(chain);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> NamesOfRoads(const network::Network& network) {
+  std::vector<std::string> names, parts;
+  for (const RoadChain& chain : ChainsOf(network)) {
+    names.push_back(IdOf(network, chain));
+    for (const RoadChain::Part& part : chain.parts) {
+      const network::Road& road = network.roads()[part.road];
+      if (road.id() != names.back() && road.spec().junction.empty()) parts.push_back(road.id());
+    }
+  }
+  names.insert(names.end(), parts.begin(), parts.end());
+  return names;
+}
+
 std::vector<RoadChain> ChainsOf(const network::Network& network) {
   std::vector<RoadChain> chains;
   std::vector<bool> used(network.roads().size(), false);

@@ -11,6 +11,7 @@
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/results/study.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"
@@ -369,6 +370,29 @@ std::string Problem(const std::string& text) {
   if (const auto status = file.value().Finish(); !status) return status.error().Text();
   const auto model = TrafficModel::Make(settings, Street(), {});
   return model ? "" : model.error().Text();
+}
+
+// The road runs to the east from x = 0 on, so that its stations are x; a junction at 100 m cuts it.
+TEST(Pedestrians, ACrossingIsFoundByTheWholeRoadToo) {
+  const auto world = road::World::Parse(
+      "rodeira: world/2\nname: cross\nground: {kind: plane}\nroads:\n"
+      "  - {id: main, axis: [line: {length_m: 300}], z_m: 0, section: {template: rural}, markings: [{type: crossing, "
+      "s_m: 40, length_m: 3}, {type: crossing, s_m: 220, length_m: 3}]}\n"
+      "  - {id: side, place: {road: main, s_m: 100, turn_deg: 90, own_s_m: 80}, axis: [line: {length_m: 160}], "
+      "section: {template: rural}}\n"
+      "junctions:\n  - {id: j, roads: [{road: main, s_m: 100}, {road: side, s_m: 80}]}\n",
+      "cross.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const network::Network& network = *world.value()->network();
+  const auto model = TrafficModel::Make(WithPeople(1, 0.0), NetworkOf(world.value()), {});
+  ASSERT_TRUE(model.ok()) << model.error().Text();
+  const Pedestrians& people = *model.value().people();
+  const auto near = people.Nearest(network, "main", 60.0), far = people.Nearest(network, "main", 200.0);
+  ASSERT_TRUE(near && far);
+  EXPECT_EQ(near, people.Nearest(network, "main/1", 40.0));
+  EXPECT_EQ(far, people.Nearest(network, "main/2", 100.0));
+  EXPECT_NE(near, far);
+  EXPECT_FALSE(people.Nearest(network, "mian", 60.0).has_value());
 }
 
 TEST(Pedestrians, WrongSettingsAreNamed) {

@@ -205,20 +205,23 @@ TEST_F(Scenario, StationsGoOnThroughAJunction) {
                                   "junctions:\n  - {id: j, roads: [{road: main, s_m: 60}, {road: side, s_m: 80}]}\n"))
           .ok());
   std::string text =
-      Text(File("  - {when: {road: main, passes_m: 60}, name: mark, text: in}\n  - {when: {road: main, passes_m: 100}, "
-                "name: mark, text: below}\n"
+      Text(File("  - {when: {road: main/1, passes_m: 30}, name: mark, text: part}\n  - {when: {road: main, passes_m: "
+                "60}, name: mark, text: in}\n  - {when: {road: main, passes_m: 100}, name: mark, text: below}\n"
                 "  - {when: {road: over, passes_m: 80}, name: mark, text: never}\n"));
   text.replace(text.find("../configs/worlds/n222.yaml"), 27, world.string());
   text.replace(text.find("vehicles: 20"), 12, "vehicles: 0");
   const Driven run = Drive(LaunchOf(text), 16000);
   ASSERT_TRUE(run.outcome.ok) << run.outcome.fault;
-  ASSERT_EQ(run.events.size(), 2u);
-  double station_m = 60.0;
+  ASSERT_EQ(run.events.size(), 3u);
+  std::vector<double> stations_m{30.0, 60.0, 100.0};
   for (const auto& [valid, events] : run.events) {
-    EXPECT_GE(run.car.at(valid - 10).position_w_m().x(), station_m) << events.front().argument();
-    EXPECT_LT(run.car.at(valid - 20).position_w_m().x(), station_m) << events.front().argument();
-    station_m = 100.0;
+    EXPECT_GE(run.car.at(valid - 10).position_w_m().x(), stations_m.front()) << events.front().argument();
+    EXPECT_LT(run.car.at(valid - 20).position_w_m().x(), stations_m.front()) << events.front().argument();
+    stations_m.erase(stations_m.begin());
   }
+  text = Text(File("  - {when: {road: main/1, passes_m: 60}, name: mark, text: where}\n"));
+  text.replace(text.find("../configs/worlds/n222.yaml"), 27, world.string());
+  EXPECT_NE(Complaint(text).find("road 'main/1' is "), std::string::npos) << Complaint(text);
   text = Text(File("  - {when: {passes_m: 60}, name: mark, text: where}\n"));
   text.replace(text.find("../configs/worlds/n222.yaml"), 27, world.string());
   EXPECT_NE(Complaint(text).find(
