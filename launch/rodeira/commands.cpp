@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/core/base/display.hpp"
 #include "common/core/base/exhaustion.hpp"
@@ -31,6 +35,15 @@ int ChooseCommand() {
                                   "DISPLAY, or name a command (`rodeira --help` lists them)"));
 }
 
+// `rodeira help world` as `rodeira world --help`.
+std::vector<std::string> WordsOf(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 int RunCommandLine(int argc, char** argv) {
   base::PinMathLibrary(argv);
   base::NameExhaustion("rodeira");
@@ -51,7 +64,9 @@ int RunCommandLine(int argc, char** argv) {
   AddForce(app);
   AddJson(app);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words = WordsOf(argc, argv);
+    std::ranges::reverse(words);  // as the library takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(problem);  // --help, --version

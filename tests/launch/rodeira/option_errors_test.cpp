@@ -132,5 +132,17 @@ TEST(OptionErrors, HelpAndVersionAreNoErrors) {
   }
 }
 
+TEST(OptionErrors, HelpIsAWordToo) {
+  const auto said = [](const std::vector<std::string>& words) {
+    std::vector<std::string> command{Bin("rodeira")};
+    command.insert(command.end(), words.begin(), words.end());
+    const system_test::Ended ended = system_test::RunCommand(command);
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    return ended.out;
+  };
+  EXPECT_EQ(said({"help"}), said({"--help"}));
+  EXPECT_EQ(said({"help", "world", "check"}), said({"world", "check", "--help"}));
+}
+
 }  // namespace
 }  // namespace rodeira::cli
