@@ -38,7 +38,8 @@ base::Status CheckNodesOf(const Overrides& overrides, const config::Map& nodes) 
     if (!IsNodeKey(below.substr(0, below.find('.'))) && nodes.OptionalChild(name).OptionalChild("config").Has(below))
       return base::WrongInput(
           "config.unknown_key",
-          fmt::format("unknown key '{}'{}", key, fmt::format("; did you mean 'nodes.{}.config.{}'?", name, below)), where);
+          fmt::format("unknown key '{}'{}", key, fmt::format("; did you mean 'nodes.{}.config.{}'?", name, below)),
+          where);
   }
   return {};
 }
