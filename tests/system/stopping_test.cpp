@@ -50,6 +50,8 @@ std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleSta
   return boxes;
 }
 
+constexpr double kStandingGap_m = 4.5, kRoomToPass_m = 10.5;
+
 TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
   const cli::TemporaryFolder folder;
   const std::string recording = (folder.path() / "blocked.mcap").string();
@@ -94,13 +96,14 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
     const double gap = queue[i - 1].rear_m - queue[i].front_m;
     EXPECT_LT(std::fabs(queue[i].speed_mps), 0.05) << i;
     EXPECT_GT(gap, 1.0) << i;
-    EXPECT_LT(gap, 4.5) << i << ": IDM's standing gap is 2 m and more where it stops earlier";
+    // IDM's standing gap is 2 m and more where it stops earlier; behind a driver's car it keeps room to pass it.
+    EXPECT_LT(gap, i == 1 ? kRoomToPass_m : kStandingGap_m) << i;
   }
   ASSERT_GT(queue.size(), *place + 1) << "and followers have come behind it";
   const Box& follower = queue[*place + 1];
   EXPECT_LT(follower.speed_mps, 0.05);
   EXPECT_GT(autopilot.rear_m - follower.front_m, 1.0);
-  EXPECT_LT(autopilot.rear_m - follower.front_m, 4.5);
+  EXPECT_LT(autopilot.rear_m - follower.front_m, kRoomToPass_m);
 }
 
 }  // namespace
