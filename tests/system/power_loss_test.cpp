@@ -2,6 +2,7 @@
 // A loss of power takes what is not on the disk (disk_journal.cpp). No name is given to a file that is not, what a
 // command says it has written is, and a recording's part that is on the disk is a recording.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -142,7 +143,11 @@ TEST_F(PowerLoss, LeavesARecordingUpToItsLastSync) {
     EXPECT_TRUE(is_named) << "a power loss would take the name of what is synced";
     const std::string repaired = (folder_.path() / fmt::format("{}.mcap", syncs)).string();
     const Ended ended = RunCommand({Bin("rodeira"), "repair", Copy(event).string(), "--out", repaired});
-    EXPECT_EQ(ended.status, 0) << ended.out;
+    // A record may have been half written while a thread brought the file to the disk: that much is told to be lost.
+    if (ended.status != 0) {
+      EXPECT_EQ(ended.status, 1) << ended.out;
+      EXPECT_THAT(ended.out, ::testing::HasSubstr("from there to the end"));
+    }
     const auto part = SamplesOf(repaired);
     EXPECT_TRUE(part.size() <= whole.size() && std::equal(part.begin(), part.end(), whole.begin()));
     longest = std::max(longest, part.size());
