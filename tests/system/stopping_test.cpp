@@ -96,7 +96,7 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
     const double gap = queue[i - 1].rear_m - queue[i].front_m;
     EXPECT_LT(std::fabs(queue[i].speed_mps), 0.05) << i;
     EXPECT_GT(gap, 1.0) << i;
-    // IDM's standing gap is 2 m and more where it stops earlier; behind a driver's car it keeps room to pass it.
+    // IDM's minimum gap is 2 m and more where it stops earlier; behind a driver's car it keeps room to pass it.
     EXPECT_LT(gap, i == 1 ? kRoomToPass_m : kStandingGap_m) << i;
   }
   ASSERT_GT(queue.size(), *place + 1) << "and followers have come behind it";
