@@ -83,7 +83,7 @@ TEST_F(ResultFiles, EveryCommandThatWritesKeepsTheRule) {
                                              {"vehicle", "test", none, "--out", full},
                                              {"vehicle", "rig", none, "--out", full},
                                              {"vehicle", "tyre", none, "--csv", old},
-                                             {"mechanism", "run", none, "--until", "1", "--svg", old},
+                                             {"mechanism", "run", none, "--step", "0.001", "--until", "1", "--svg", old},
                                              {"polyline", "join", none, none, "-o", old},
                                              {"surface", "check", none, "--svg", old},
                                              {"map", "convert", none, "-o", old},
