@@ -28,6 +28,7 @@ std::optional<RunTermination> ClockLosses::Watch() {
   const lockstep::Report& report = run_.clock.report(fault->node);
   const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
   if (by_its_own_word || report.phase < Phase::kReady) return RunTermination{fault->reason, fault->status};
+  if (fault->silent) Say("silent {} {}", run_.roster.node(fault->node).name, OneLine(fault->reason));
   return HandleLoss(fault->node, fault->reason, fault->status);
 }
 

@@ -96,7 +96,8 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
     if (silence_ms > patience * settings_.silence_ms) {
       return Fault{n,
                    fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off",
-                               spec.name, static_cast<double>(silence_ms) / 1e3, incarnation.report.progress)};
+                               spec.name, static_cast<double>(silence_ms) / 1e3, incarnation.report.progress),
+                   1, true};
     }
     const std::int64_t deadline_ms = spec.deadline_ms > 0 ? spec.deadline_ms : settings_.deadline_ms;
     if (incarnation.report.phase == Phase::kRunning && incarnation.report.waiting == Waiting::kNothing &&

@@ -23,8 +23,9 @@ class Watchdog {
   };
   struct Fault {
     NodeIndex node = 0;
-    std::string reason;  // a sentence that names the node
-    int status = 1;      // exit status of the run: 2 where a person gave something wrong
+    std::string reason;   // a sentence that names the node
+    int status = 1;       // exit status of the run: 2 where a person gave something wrong
+    bool silent = false;  // it is not heard; its process may tell more
   };
 
   Watchdog(const Roster& roster, const Settings& settings);

@@ -27,6 +27,7 @@
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
+#include "launch/rodeira/run/silent_nodes.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
@@ -187,7 +188,7 @@ class ProcessRun {
     for (const std::string& node : processes_.NodesOf(child)) {
       if (!child.LastWordOf(node).empty() || LeftByItself(child)) {
         TellExit(child, node);
-      } else if (child.stopped() || child.ended()) {
+      } else if (child.stopped() || child.ended() || child.killed()) {
         TellClock(child, node);
       } else {
         told_.erase(node);  // it goes on
@@ -202,6 +203,16 @@ class ProcessRun {
     const std::string word = child.LastWordOf(node);
     processes_.clock().Send(word.empty() ? fmt::format("lost {} {} {}", node, incarnation, processes_.FateOf(child))
                                          : fmt::format("said {} {} {}", node, incarnation, word));
+  }
+  // Of a node that the clock no longer hears.
+  std::optional<std::string> FateOfSilent(const std::string& node) {
+    processes_.Poll();
+    for (const Child& child : processes_.children()) {
+      if (!std::ranges::count(processes_.NodesOf(child), node)) continue;
+      if (child.ended() || child.stopped() || child.killed())
+        return fmt::format("node '{}' {} at about step {}", node, processes_.FateOf(child), report_.step);
+    }
+    return std::nullopt;
   }
   // Dead or stopped though the run is not over.
   void TellClock(const Child& broken, const std::string& name) {
@@ -263,8 +274,8 @@ class ProcessRun {
       const std::string_view line = std::string_view(pending_).substr(0, end);
       if (line.starts_with("answer ")) {
         TakeAnswer(line.substr(7));
-      } else {
-        report_.Take(line);
+      } else if (!silent_.Take(line)) {
+        report_.Take(silent_.Reworded(std::string(line)));
       }
       pending_.erase(0, end + 1);
       if (!report_.faults.empty()) Fault(report_.faults.front());
@@ -329,6 +340,7 @@ class ProcessRun {
   NodeProcesses processes_;
   std::set<std::string> before_;
   RunReport report_;
+  SilentNodes silent_{[this](const std::string& node) { return FateOfSilent(node); }, 500ms};
   std::string fault_;
   std::string pending_;
   std::optional<Operator> desk_;  // where the clock is

@@ -9,7 +9,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <string>
 #include <utility>
 
 namespace rodeira::cli {
@@ -101,6 +104,17 @@ Child& Child::operator=(Child&& other) noexcept {
 
 Child::~Child() { Close(); }
 
+int KilledBy(pid_t pid) {
+  // proc_pid_stat(5): behind the name in brackets the third field is the state, the 52nd what waitpid will say.
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string line;
+  std::getline(file, line);
+  const auto name_end = line.rfind(") ");
+  if (name_end == std::string::npos || line.compare(name_end, 3, ") Z") != 0) return 0;
+  const int status = std::atoi(line.c_str() + line.find_last_of(' ') + 1);
+  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
 void Child::CloseInput() {
   if (in_ >= 0) ::close(std::exchange(in_, -1));
 }
@@ -133,6 +147,7 @@ void Child::Poll() {
       return;
     }
   }
+  if (kill_signal_ == 0) kill_signal_ = KilledBy(pid_);
 }
 
 void Child::Signal(int number) const {

@@ -13,6 +13,11 @@
 
 namespace rodeira::cli {
 
+// The signal that has killed a process of which no code runs any more, though it has not ended: the first thread is a
+// zombie, and another one gets no processor to end on. On a busy PC that lasts for seconds where a library runs a
+// thread by SCHED_IDLE, as Mesa does for its cache of shaders. 0: not so, or another user's process.
+int KilledBy(pid_t pid);
+
 // A child process of `rodeira run`, in a process group of its own (a terminal's Ctrl-C reaches only the parent), told
 // by SIGTERM when the parent dies, however it dies.
 class Child {
@@ -37,6 +42,8 @@ class Child {
   bool ended() const { return ended_; }
   std::chrono::steady_clock::time_point ended_at() const { return ended_at_; }  // when Poll saw it
   bool stopped() const { return stopped_; }
+  // By a signal; its last threads may still be ending (KilledBy).
+  bool killed() const { return kill_signal_ != 0; }
   std::optional<int> exit_status() const { return exit_status_; }  // where it left by itself
   // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)". A crash in foreign
   // code is named: "was killed by signal 11 (Segmentation fault) in fmi2DoStep of FMU '/a/car.fmu' (instance 'b')".
