@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* kForce = "--force";
 constexpr const char* kFile = "new file";  // names of validators
 constexpr const char* kFolder = "new folder";
+constexpr const char* kBeside = "also writes ";  // … ENDING WHEN
 
 bool HasValidator(CLI::Option& option, const char* name) {
   try {
@@ -27,11 +28,38 @@ bool HasValidator(CLI::Option& option, const char* name) {
 
 bool NamesResult(CLI::Option* option) { return HasValidator(*option, kFile) || HasValidator(*option, kFolder); }
 
+// The first file that is there of those that are written beside one; empty: there is none.
+fs::path FoundBeside(CLI::Option& option, const fs::path& file) {
+  std::error_code problem;
+  for (int i = 0;; ++i) {
+    const CLI::Validator* validator = nullptr;
+    try {
+      validator = option.get_validator(i);
+    } catch (const CLI::OptionNotFound&) {
+      return {};
+    }
+    const std::string name = validator->get_name();
+    if (!name.starts_with(kBeside)) continue;
+    const std::string endings = name.substr(std::string_view(kBeside).size());
+    const auto space = endings.find(' ');
+    const std::string when = endings.substr(space + 1);
+    const fs::path beside = fs::path(file).replace_extension(endings.substr(0, space));
+    if ((when.empty() || file.extension() == when) && fs::is_regular_file(beside, problem)) return beside;
+  }
+}
+
 // Empty: nothing would be replaced.
 std::string WhyNot(CLI::Option& option, const std::string& path) {
   std::error_code problem;
-  if (HasValidator(option, kFile))
-    return fs::is_regular_file(path, problem) ? "the file exists; name another one, or replace it by --force" : "";
+  if (HasValidator(option, kFile)) {
+    if (fs::is_regular_file(path, problem)) return "the file exists; name another one, or replace it by --force";
+    const fs::path beside = FoundBeside(option, path);
+    return beside.empty() ? ""
+                          : fmt::format(
+                                "{} would be written, too, and exists; name another one, or replace it by "
+                                "--force",
+                                beside.filename().string());
+  }
   if (!fs::is_directory(path, problem) || fs::is_empty(path, problem) || problem) return "";
   return "the folder is not empty; name another one, or replace its files by --force";
 }
@@ -47,6 +75,10 @@ CLI::Validator NewFile() {
         return fmt::format("'{}' was found; there is no folder '{}'", text, folder.string());
       },
       "FILE", kFile);
+}
+
+CLI::Validator AlsoWrites(const std::string& ending, const std::string& when) {
+  return CLI::Validator([](std::string&) { return std::string(); }, "", kBeside + ending + " " + when);
 }
 
 CLI::Validator NewFolder() {

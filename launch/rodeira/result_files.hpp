@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 #include "common/core/base/result.hpp"
 
 // One rule for every file and folder of results that an option names: what exists is refused, `--force` replaces it.
@@ -11,6 +13,9 @@ namespace rodeira::cli {
 
 // A file to be written, in a folder that is there.
 CLI::Validator NewFile();
+// Beside NewFile: with a file whose name ends with `when` (any, where it is empty) another one is written, of the same
+// name up to `ending`.
+CLI::Validator AlsoWrites(const std::string& ending, const std::string& when = "");
 // A folder to write files into; it is made where it is missing.
 CLI::Validator NewFolder();
 
@@ -20,8 +25,8 @@ void AddForce(CLI::App& app);
 // After parsing: whether the command line of `command` has `--force`.
 bool IsForced(const CLI::App& command);
 
-// After parsing: wrong input where such an option of the chosen command names a regular file, or a folder that is not
-// empty, and the command line has no `--force`. Devices and pipes are written to.
+// After parsing: wrong input where such an option of the chosen command names a regular file, also one beside it, or a
+// folder that is not empty, and the command line has no `--force`. Devices and pipes are written to.
 base::Status CheckResults(CLI::App& app);
 
 }  // namespace rodeira::cli

@@ -24,7 +24,8 @@ void AddMap(CLI::App& app, ChosenCommand& chosen) {
           ->add_option("-o,--out", options->out,
                        "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")
           ->required()
-          ->check(NewFile());
+          ->check(NewFile())
+          ->check(AlsoWrites(".xodr", ".yaml"));
     chosen.When(*command, [options, name] {
       options->command = name;
       return MapCommand(*options);

@@ -22,7 +22,8 @@ void AddMeasures(CLI::App& app, ChosenCommand& chosen) {
   command->add_option("--baseline", options->baseline, "name of the interval that is the driver's baseline");
   command->add_option("--subject", options->subject, "vehicle node, or agent:ID; otherwise the first vehicle");
   command->add_option("-o,--out", options->out, "table to write, .csv or .json; otherwise a text is printed")
-      ->check(NewFile());
+      ->check(NewFile())
+      ->check(AlsoWrites(".measures.yaml"));
   command->add_flag("--long", options->long_format, "a row a value, with unit, n, valid share and options");
   command->add_option("--series", options->series, "write the time series of one recording into this CSV file")
       ->check(NewFile());
