@@ -46,7 +46,7 @@ nodes:
                                                                       groups.at("road"), groups.at("a"), groups.at("b"),
                                                                       groups.at("c"), groups.at("recorder"), name))
                                    .string();
-    const Words common{"--launch", launch, "--run", name + std::to_string(::getpid()), "--domain", "219"};
+    const Words common{"--launch", launch, "--run", name + std::to_string(::getpid()), "--domain", "216"};
     const auto start = [&](const std::string& program, const Words& more) {
       Words words{Bin(program)};
       words.insert(words.end(), common.begin(), common.end());
