@@ -15,6 +15,10 @@ constexpr double kStabilitySlip = 0.3;     // of a wheel that the stability cont
 constexpr double kMinGain_Nmps = 60000.0;  // a unit of slip: on the stable branch the torque must follow the tyre's
 constexpr double kFarBelow = 0.7;          // a front brake's torque against the other one's
 
+// Above 0 where it has the direction in which the car goes: a car that goes backward is braked as one that goes
+// forward.
+double AlongWay(const MotionEstimator& motion, double forward) { return motion.speed_mps() < 0.0 ? -forward : forward; }
+
 }  // namespace
 
 // In proportion to the friction that the tyre has found, as the slip of its largest force is. A braking force that is
@@ -36,9 +40,9 @@ double AntiLock::SlipWanted(const AntiLockSettings& settings, const AssistCar& c
 
 void AntiLock::Control(const AntiLockSettings& settings, const AssistCar& car, const AssistInput& input,
                        const MotionEstimator& motion, std::size_t wheel, double wanted_Nm, double dt_s) {
-  const double ground = motion.GroundSpeed(car, input, wheel), before = slip_[wheel];
+  const double ground = AlongWay(motion, motion.GroundSpeed(car, input, wheel)), before = slip_[wheel];
   const bool is_slow = ground <= settings.min_speed_mps;
-  slip_[wheel] = is_slow ? 0.0 : 1.0 - input.wheel_radps[wheel] * car.rolling_radius_m / ground;
+  slip_[wheel] = is_slow ? 0.0 : 1.0 - AlongWay(motion, input.wheel_radps[wheel]) * car.rolling_radius_m / ground;
   double& cap_Nm = cap_Nm_[wheel];
   if (is_slow || !(wanted_Nm > 0.0)) {
     cap_Nm = kFree;
@@ -63,7 +67,7 @@ PerWheel AntiLock::Step(const AntiLockSettings& settings, const AssistCar& car, 
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
     Control(settings, car, input, motion, i, wanted_Nm[i], dt_s);
     if (acts(i)) brake_Nm[i] = cap_Nm_[i];
-    if (motion.GroundSpeed(car, input, i) > settings.min_speed_mps)
+    if (AlongWay(motion, motion.GroundSpeed(car, input, i)) > settings.min_speed_mps)
       brake_Nm[i] = std::min(brake_Nm[i], given_Nm_[i] + dt_s * settings.build_Nmps);
   }
   if (wanted_Nm[2] == wanted_Nm[3]) brake_Nm[2] = brake_Nm[3] = std::min(brake_Nm[2], brake_Nm[3]);

@@ -13,6 +13,7 @@ constexpr double kForget_s = 2.0;    // in which a lateral speed that is only in
 constexpr double kForceSmooth_s = 0.03;
 constexpr double kRollsFreely = 0.05;  // braking force over load
 constexpr double kMinShare = 0.2;      // of the load at rest that a wheel is held to bear
+constexpr double kBackward_mps = 0.5;  // faster, a car goes backward and does not only rock as it stops
 
 double HalfTrack(const AssistCar& car, std::size_t wheel) {
   return (wheel % 2 == 0 ? 0.5 : -0.5) * car.track_m[wheel / 2];
@@ -70,8 +71,9 @@ void MotionEstimator::Step(const AssistCar& car, const AssistInput& input, const
   else if (begun_)  // a driven one too fast
     speed = std::clamp(slowest, carried - drift, carried + drift);
   speed_mps_ = way * speed;
+  const double turns = speed_mps_ < -kBackward_mps ? -1.0 : 1.0;
   for (std::size_t i = 0; i < kAssistWheels; ++i) {
-    const double slows_radps2 = begun_ ? (before_radps_[i] - input.wheel_radps[i]) / dt_s : 0.0;
+    const double slows_radps2 = begun_ ? turns * (before_radps_[i] - input.wheel_radps[i]) / dt_s : 0.0;
     const double force = (brake_Nm[i] - car.wheel_inertia_kgm2 * slows_radps2) / car.rolling_radius_m;
     braking_N_[i] += (std::max(0.0, force) - braking_N_[i]) * dt_s / (kForceSmooth_s + dt_s);
   }

@@ -34,6 +34,17 @@ double HeightAt(const WheelGround& ground, const Vector3d& at_W) {
   return at_W.z() - (at_W - ground.plane_W).dot(ground.normal_W) / std::max(ground.normal_W.z(), 1e-3);
 }
 
+// The plane cut by the upright plane through the hub along `ahead`, in which a wheel meets an edge: its normal there,
+// and the hub's distance from it.
+struct Section {
+  Vector3d normal;
+  double over_m;
+};
+Section SectionOf(const WheelGround& ground, const WheelDisc& disc, const Vector3d& ahead) {
+  const Vector3d normal = (Vector3d::UnitZ() - SlopeAlong(ground, ahead) * ahead).normalized();
+  return {normal, (disc.hub_W.z() - HeightAt(ground, disc.hub_W)) * normal.z()};
+}
+
 // From the edge, a level line across its way, to the hub; from the wall below it where the hub is lower.
 Vector3d ToHub(const GroundEdge& edge, const WheelDisc& disc) {
   const Vector3d along(-edge.ahead_W.y(), edge.ahead_W.x(), 0.0);
@@ -54,8 +65,8 @@ bool IsValid(const GroundEdge& edge, const WheelDisc& disc, const WheelGround& g
   const Vector3d way = ToHub(edge, disc);
   if (way.norm() < kNearest * disc.radius_m) return false;
   if (edge.rises) return way.dot(edge.ahead_W) < 0.0;
-  const Vector3d foot = way - (disc.hub_W - ground.plane_W).dot(ground.normal_W) * ground.normal_W;
-  return way.dot(edge.ahead_W) >= 0.0 && foot.dot(edge.ahead_W) < 0.0;
+  const Section face = SectionOf(ground, disc, edge.ahead_W);
+  return way.dot(edge.ahead_W) >= 0.0 && (way - face.over_m * face.normal).dot(edge.ahead_W) < 0.0;
 }
 
 // Where the old plane ends: where both meet, within the way that the hub has moved.
@@ -75,7 +86,9 @@ GroundEdge RisingEdge(const WheelGround& ground, const WheelDisc& disc, const Ve
   const double over_m = std::clamp((disc.hub_W - ground.plane_W).dot(ground.normal_W), 0.0, reach_m);
   const Vector3d along = (ahead - ahead.dot(ground.normal_W) * ground.normal_W).normalized();
   const double at_m = std::sqrt(reach_m * reach_m - over_m * over_m);
-  const Vector3d way = (over_m * ground.normal_W - at_m * along).normalized();
+  const Vector3d side(-ahead.y(), ahead.x(), 0.0);
+  Vector3d way = over_m * ground.normal_W - at_m * along;
+  way = (way - way.dot(side) * side).normalized();  // ToHub leaves out what lies along the edge
   return {disc.hub_W - reach_m * Lean(disc, way) * way, ahead, true};
 }
 

@@ -11,6 +11,8 @@
 namespace rodeira::dynamics {
 namespace {
 
+constexpr double kSoftestFiala_N = 1.0, kStiffestFiala_N = 1e9;
+
 struct FialaUnit {
   std::string_view name;
   double in_si;
@@ -72,6 +74,10 @@ std::string FialaProblem(const FialaSettings& fiala) {
   for (const auto& [key, value] : {std::pair("CSLIP", fiala.cslip_N), std::pair("CALPHA", fiala.calpha_N),
                                    std::pair("UMIN", fiala.umin), std::pair("UMAX", fiala.umax)}) {
     if (!(value > 0.0)) return fmt::format("'{}' is {:g}; more than 0 was expected", key, value);
+  }
+  for (const auto& [key, value] : {std::pair("CSLIP", fiala.cslip_N), std::pair("CALPHA", fiala.calpha_N)}) {
+    if (value < kSoftestFiala_N || value > kStiffestFiala_N)
+      return fmt::format("'{}' is {:g} N; {:g} to {:g} N was expected", key, value, kSoftestFiala_N, kStiffestFiala_N);
   }
   if (fiala.umin > fiala.umax || fiala.umax > 5.0)
     return fmt::format("'UMIN' is {:g} and 'UMAX' {:g}; 0 < UMIN <= UMAX <= 5 was expected", fiala.umin, fiala.umax);

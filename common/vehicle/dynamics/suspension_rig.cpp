@@ -22,12 +22,22 @@ constexpr double kTravelStep_m = 1e-3;
 constexpr double kSteeringStep_rad = 0.05;
 constexpr double kTurned_rad = 1e-7;  // a carrier that turns less with the steering is not steered
 
+std::array<double, kWheels> AllWheelsAt(double travel_m) {
+  std::array<double, kWheels> travels{};
+  travels.fill(travel_m);
+  return travels;
+}
+
 double SideOf(std::size_t wheel) { return wheel % 2 == 0 ? 1.0 : -1.0; }  // left positive
 
 }  // namespace
 
 SuspensionRig::SuspensionRig(const MultibodySettings& car, std::unique_ptr<multibody::System> system)
-    : wheels_(car.wheels), steering_(car.steering.angle), radius_m_(car.wheel.radius_m), system_(std::move(system)) {}
+    : wheels_(car.wheels),
+      steering_(car.steering.angle),
+      column_Nmprad_(car.steering.column_Nmprad),
+      radius_m_(car.wheel.radius_m),
+      system_(std::move(system)) {}
 
 base::Result<SuspensionRig> SuspensionRig::Make(const MultibodySettings& car) {
   multibody::Drawing drawing = car.mechanism;
@@ -180,15 +190,10 @@ std::optional<SuspensionFigures::SteeringAxis> SuspensionRig::FindSteeringAxis(s
 }
 
 base::Result<SuspensionFigures> SuspensionRig::Figures(std::size_t wheel, double travel_m) {
-  const auto all_at = [](double travel) {
-    std::array<double, kWheels> travels{};
-    travels.fill(travel);
-    return travels;
-  };
   std::array<WheelPosition, 3> at;
   std::array<double, 3> energy_J{};
   for (const std::size_t which : {0u, 2u, 1u}) {
-    if (auto status = MoveTo(all_at(travel_m + (static_cast<double>(which) - 1.0) * kTravelStep_m), 0.0); !status)
+    if (auto status = MoveTo(AllWheelsAt(travel_m + (static_cast<double>(which) - 1.0) * kTravelStep_m), 0.0); !status)
       return status.error();
     at[which] = this->wheel(wheel);
     energy_J[which] = SpringEnergy(wheel);
@@ -205,6 +210,31 @@ base::Result<SuspensionFigures> SuspensionRig::Figures(std::size_t wheel, double
   figures.wheel_rate_Npm = (energy_J[0] - 2.0 * energy_J[1] + energy_J[2]) / (kTravelStep_m * kTravelStep_m);
   figures.steering_axis = FindSteeringAxis(wheel);
   return figures;
+}
+
+// The column bears torque = force · d(way of the force) / d(angle), and is turned by it over its stiffness.
+base::Result<WheelCompliance> SuspensionRig::Compliance(std::size_t wheel, double travel_m) {
+  const std::array<double, kWheels> travels = AllWheelsAt(travel_m);
+  if (auto status = MoveTo(travels, 0.0); !status) return status.error();
+  const Eigen::Vector3d contact = CarrierPose(wheel).inverse() * this->wheel(wheel).contact_m;
+  std::array<WheelPosition, 2> at;
+  std::array<Eigen::Isometry3d, 2> carrier;
+  for (const std::size_t which : {0u, 1u}) {
+    if (auto status = MoveTo(travels, which == 0 ? -kSteeringStep_rad : kSteeringStep_rad); !status)
+      return status.error();
+    at[which] = this->wheel(wheel);
+    carrier[which] = CarrierPose(wheel);
+  }
+  if (auto status = MoveTo(travels, 0.0); !status) return status.error();
+  const double span = 2.0 * kSteeringStep_rad, side = SideOf(wheel);
+  const Eigen::AngleAxisd rotation((carrier[1] * carrier[0].inverse()).linear());
+  const Eigen::Vector3d way = (carrier[1] * contact - carrier[0] * contact) / span;
+  const double toe_in = (at[1].toe_in_rad - at[0].toe_in_rad) / span,
+               camber = (at[1].camber_rad - at[0].camber_rad) / span;
+  const auto by = [&](double arm_m) {
+    return WheelCompliance::Change{toe_in * arm_m / column_Nmprad_, camber * arm_m / column_Nmprad_};
+  };
+  return WheelCompliance{by(side * way.y()), by(way.x()), by(-side * rotation.angle() * rotation.axis().z() / span)};
 }
 
 }  // namespace rodeira::dynamics

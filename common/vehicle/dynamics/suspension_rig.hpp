@@ -44,6 +44,17 @@ struct SuspensionFigures {
   std::optional<SteeringAxis> steering_axis;  // of wheels that the steering turns
 };
 
+// What a force on one wheel changes while the steering wheel and the height of every wheel are held. Joints are rigid:
+// only the steering column gives way, so all is 0 at a wheel that the steering does not turn.
+struct WheelCompliance {
+  struct Change {
+    double toe_in_rad = 0.0, camber_rad = 0.0;
+  };
+  Change lateral;       // by a newton outward at the contact
+  Change longitudinal;  // by a newton forward at the contact, the wheel held by its brake
+  Change aligning;      // by a newton metre about z, towards toe-in
+};
+
 // A multibody car's suspensions on a bench: the chassis is held where it is drawn, the wheels are moved, without a
 // tyre, a weight or friction. A value of positions; one thread.
 class SuspensionRig {
@@ -62,6 +73,9 @@ class SuspensionRig {
   // At this travel of all wheels, steering straight ahead; by central differences over 1 mm and 0.05 rad. The rig is
   // there afterwards. Wrong input as of MoveTo.
   base::Result<SuspensionFigures> Figures(std::size_t wheel, double travel_m);
+  // At this travel of all wheels, steering straight ahead: by virtual work, with central differences over 0.05 rad. The
+  // rig is there afterwards. Wrong input as of MoveTo.
+  base::Result<WheelCompliance> Compliance(std::size_t wheel, double travel_m);
 
  private:
   SuspensionRig(const MultibodySettings& car, std::unique_ptr<multibody::System> system);
@@ -78,6 +92,7 @@ class SuspensionRig {
 
   std::array<MultibodyWheelSettings, kWheels> wheels_;
   int steering_ = 0;
+  double column_Nmprad_ = 0.0;
   double radius_m_ = 0.0;
   std::unique_ptr<multibody::System> system_;
   std::array<double, kWheels> drawn_z_m_{};

@@ -13,6 +13,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/vehicle/dynamics/usual_tyre.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -66,8 +67,9 @@ class TirReader {
     for (const TirEntry& entry : tir.entries) {
       if (auto status = Entry(entry); !status) return status.error();
     }
-    for (const auto& step : {&TirReader::CheckExtraKeys, &TirReader::CheckNeeded, &TirReader::CheckLoads,
-                             &TirReader::ChooseSigns, &TirReader::ChoosePressure, &TirReader::CheckStiffness}) {
+    for (const auto& step :
+         {&TirReader::CheckExtraKeys, &TirReader::CheckNeeded, &TirReader::CheckLoads, &TirReader::ChooseSigns,
+          &TirReader::ChoosePressure, &TirReader::CheckStiffness, &TirReader::CheckValues}) {
       if (auto status = (this->*step)(); !status) return status.error();
     }
     TellMissing();
@@ -259,6 +261,18 @@ class TirReader {
                                "number was expected: a positive slip angle gives a force to the right",
                                across),
                    std::string("PKY1"));
+    return {};
+  }
+
+  // What no tyre has is refused; what no tyre of a road vehicle has is warned of.
+  base::Status CheckValues() {
+    for (const UnusualTyreValue& unusual : UnusualTyreValues(tyre_, &aligning_)) {
+      const std::string key(unusual.key);
+      if (unusual.is_impossible) return Wrong(fmt::format("'{}': {}", key, unusual.sentence), key);
+      const auto line = lines_.find(key);
+      Warn(line == lines_.end() ? unusual.sentence
+                                : fmt::format("'{}' in line {}: {}", key, line->second, unusual.sentence));
+    }
     return {};
   }
 

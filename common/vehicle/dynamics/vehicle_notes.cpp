@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -14,6 +13,7 @@
 #include "common/vehicle/dynamics/fmu_model.hpp"
 #include "common/vehicle/dynamics/magic_formula.hpp"
 #include "common/vehicle/dynamics/tyre_file.hpp"
+#include "common/vehicle/dynamics/usual_tyre.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -30,9 +30,6 @@ constexpr auto kUsual = std::to_array<Usual>({{"body", "", "mass_kg", 100.0, 1e5
                                               {"suspension", "rear", "damper_Nspm", 50.0, 2e5},
                                               {"wheel", "", "vertical_Npm", 2e4, 5e6}});
 
-// Cornering stiffness over load, per radian, of every tyre on a road and beyond.
-constexpr double kSoftest = 2.0, kStiffest = 100.0;
-
 std::optional<double> NumberAt(const config::Map& map, std::string_view key) {
   const std::string text = map.Peek({key}).value_or("");
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
@@ -48,16 +45,11 @@ void LookAtTyre(const config::Map& axle, std::string_view name, std::vector<std:
   MagicFormulaSettings tyre;
   for (const MagicFormulaCoefficient& each : MagicFormulaCoefficients())
     tyre.*each.member = NumberAt(formula, each.name).value_or(tyre.*each.member);
-  const double load_N = tyre.fnomin * tyre.lfzo, across_N = -CorneringStiffness(tyre, load_N);
-  if (!std::isfinite(across_N) || !(load_N > 0.0)) return;
-  const std::string what = fmt::format(
-      "{}: the cornering stiffness of 'tyre.{}' at FNOMIN, by PKY1, PKY2 and PKY4, is "
-      "{:.6g} N",
-      formula.Place("PKY1"), name, across_N);
-  if (across_N > 0.0)
-    sentences.push_back(what + "; a negative number is usual: this tyre pushes the car outward");
-  else if (std::fabs(across_N) < kSoftest * load_N || std::fabs(across_N) > kStiffest * load_N)
-    sentences.push_back(fmt::format("{}; {:.6g} to {:.6g} N is usual", what, -kStiffest * load_N, -kSoftest * load_N));
+  for (const UnusualTyreValue& unusual : UnusualTyreValues(tyre, nullptr)) {
+    const std::string key(unusual.key);
+    sentences.push_back(
+        fmt::format("{}: 'tyre.{}.magic_formula.{}': {}", formula.Place(key), name, key, unusual.sentence));
+  }
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ namespace {
 using dynamics::kWheels;
 using dynamics::SuspensionFigures;
 using dynamics::SuspensionRig;
+using dynamics::WheelCompliance;
 using dynamics::WheelPosition;
 using Positions = std::array<WheelPosition, kWheels>;
 
@@ -162,38 +163,61 @@ std::vector<plot::Diagram> SteeringDiagrams(const plot::Table& table) {
   return {angles};
 }
 
+void PrintRow(const char* name, const char* unit, const std::function<std::string(std::size_t)>& value) {
+  fmt::print("  {:<30}", name);
+  for (std::size_t i = 0; i < kWheels; ++i) fmt::print(" {:>11}", value(i));
+  fmt::print("  {}\n", unit);
+}
+
+std::string RoundedNumber(double value, int digits) {
+  return fmt::format("{:.{}f}", std::fabs(value) < 0.5 * std::pow(10.0, -digits) ? 0.0 : value, digits);
+}
+
 void PrintFigures(const Positions& drawn, const std::array<SuspensionFigures, kWheels>& figures) {
-  const auto row = [](const char* name, const char* unit, const std::function<std::string(std::size_t)>& value) {
-    fmt::print("  {:<30}", name);
-    for (std::size_t i = 0; i < kWheels; ++i) fmt::print(" {:>11}", value(i));
-    fmt::print("  {}\n", unit);
-  };
-  const auto number = [](double value, int digits) {
-    return fmt::format("{:.{}f}", std::fabs(value) < 0.5 * std::pow(10.0, -digits) ? 0.0 : value, digits);
-  };
   const auto of_axis = [&](double SuspensionFigures::SteeringAxis::*member, double unit, int digits) {
     return [&, member, unit, digits](std::size_t i) {
       const auto& axis = figures[i].steering_axis;
-      return axis ? number((*axis).*member / unit, digits) : std::string("-");
+      return axis ? RoundedNumber((*axis).*member / unit, digits) : std::string("-");
     };
   };
-  row("as drawn", "", [](std::size_t i) { return std::string(kTitles[i]); });
-  row("toe-in", "deg", [&](std::size_t i) { return number(drawn[i].toe_in_rad / kRigDegree, 3); });
-  row("camber", "deg", [&](std::size_t i) { return number(drawn[i].camber_rad / kRigDegree, 3); });
-  row("toe-in over travel", "deg/m",
-      [&](std::size_t i) { return number(figures[i].bump_steer_radpm / kRigDegree, 2); });
-  row("camber over travel", "deg/m",
-      [&](std::size_t i) { return number(figures[i].camber_gain_radpm / kRigDegree, 2); });
-  row("contact outward over travel", "1", [&](std::size_t i) { return number(figures[i].lateral_share, 4); });
-  row("contact forward over travel", "1", [&](std::size_t i) { return number(figures[i].forward_share, 4); });
-  row("height of the roll centre", "mm", [&](std::size_t i) { return number(1000.0 * figures[i].roll_centre_m, 1); });
-  row("spring over travel", "1", [&](std::size_t i) { return number(figures[i].spring_share, 4); });
-  row("stiffness at the wheel", "N/m", [&](std::size_t i) { return number(figures[i].wheel_rate_Npm, 0); });
+  PrintRow("as drawn", "", [](std::size_t i) { return std::string(kTitles[i]); });
+  PrintRow("toe-in", "deg", [&](std::size_t i) { return RoundedNumber(drawn[i].toe_in_rad / kRigDegree, 3); });
+  PrintRow("camber", "deg", [&](std::size_t i) { return RoundedNumber(drawn[i].camber_rad / kRigDegree, 3); });
+  PrintRow("toe-in over travel", "deg/m",
+           [&](std::size_t i) { return RoundedNumber(figures[i].bump_steer_radpm / kRigDegree, 2); });
+  PrintRow("camber over travel", "deg/m",
+           [&](std::size_t i) { return RoundedNumber(figures[i].camber_gain_radpm / kRigDegree, 2); });
+  PrintRow("contact outward over travel", "1",
+           [&](std::size_t i) { return RoundedNumber(figures[i].lateral_share, 4); });
+  PrintRow("contact forward over travel", "1",
+           [&](std::size_t i) { return RoundedNumber(figures[i].forward_share, 4); });
+  PrintRow("height of the roll centre", "mm",
+           [&](std::size_t i) { return RoundedNumber(1000.0 * figures[i].roll_centre_m, 1); });
+  PrintRow("spring over travel", "1", [&](std::size_t i) { return RoundedNumber(figures[i].spring_share, 4); });
+  PrintRow("stiffness at the wheel", "N/m", [&](std::size_t i) { return RoundedNumber(figures[i].wheel_rate_Npm, 0); });
   using Axis = SuspensionFigures::SteeringAxis;
-  row("caster", "deg", of_axis(&Axis::caster_rad, kRigDegree, 2));
-  row("steering axis inclination", "deg", of_axis(&Axis::inclination_rad, kRigDegree, 2));
-  row("scrub radius", "mm", of_axis(&Axis::scrub_radius_m, 0.001, 1));
-  row("caster trail", "mm", of_axis(&Axis::trail_m, 0.001, 1));
+  PrintRow("caster", "deg", of_axis(&Axis::caster_rad, kRigDegree, 2));
+  PrintRow("steering axis inclination", "deg", of_axis(&Axis::inclination_rad, kRigDegree, 2));
+  PrintRow("scrub radius", "mm", of_axis(&Axis::scrub_radius_m, 0.001, 1));
+  PrintRow("caster trail", "mm", of_axis(&Axis::trail_m, 0.001, 1));
+}
+
+void PrintCompliance(const std::array<WheelCompliance, kWheels>& compliance, double column_Nmprad) {
+  using Change = WheelCompliance::Change;
+  fmt::print(
+      "a force on one wheel, steering wheel and heights held: the column gives way ({:g} N m/rad), joints are rigid\n",
+      column_Nmprad);
+  const auto of = [&](Change WheelCompliance::*force, double Change::*angle, double unit) {
+    return [&compliance, force, angle, unit](std::size_t i) {
+      return RoundedNumber(compliance[i].*force.*angle * unit / kRigDegree, 4);
+    };
+  };
+  PrintRow("toe-in by force outward", "deg/kN", of(&WheelCompliance::lateral, &Change::toe_in_rad, 1000.0));
+  PrintRow("camber by force outward", "deg/kN", of(&WheelCompliance::lateral, &Change::camber_rad, 1000.0));
+  PrintRow("toe-in by force forward", "deg/kN", of(&WheelCompliance::longitudinal, &Change::toe_in_rad, 1000.0));
+  PrintRow("camber by force forward", "deg/kN", of(&WheelCompliance::longitudinal, &Change::camber_rad, 1000.0));
+  PrintRow("toe-in by torque to toe-in", "deg/100 Nm", of(&WheelCompliance::aligning, &Change::toe_in_rad, 100.0));
+  PrintRow("camber by torque to toe-in", "deg/100 Nm", of(&WheelCompliance::aligning, &Change::camber_rad, 100.0));
 }
 
 base::Status WriteFiles(const std::string& folder, const std::string& name, const Sweep& travel, const Sweep& steering,
@@ -228,15 +252,20 @@ int SuspensionBench(const VehicleOptions& options) {
   SuspensionRig rig = std::move(made).value();
   const Positions drawn = AllWheels(rig);
   std::array<SuspensionFigures, kWheels> figures;
+  std::array<WheelCompliance, kWheels> compliance;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const auto found = rig.Figures(i, 0.0);
     if (!found) return base::PrintError("rodeira", found.error().In(options.file));
+    const auto gives_way = rig.Compliance(i, 0.0);
+    if (!gives_way) return base::PrintError("rodeira", gives_way.error().In(options.file));
     figures[i] = found.value();
+    compliance[i] = gives_way.value();
   }
   const std::string name = std::filesystem::path(options.file).filename().string();
   if (!options.quiet) {
     fmt::print("{}: suspensions on a rig, chassis held, without tyres and weight\n", name);
     PrintFigures(drawn, figures);
+    PrintCompliance(compliance, car->settings().steering.column_Nmprad);
   }
   if (options.out.empty()) return 0;
   const auto all = [](double travel) {

@@ -93,6 +93,55 @@ TEST_P(AssistsOf, AntiLockBrakesUseTheRoadAndLockNoWheel) {
   }
 }
 
+// As forward, from 8 m/s backward on a wet road.
+TEST_P(AssistsOf, AntiLockBrakesLockNoWheelBackward) {
+  for (const double friction : {0.5, 0.3}) {
+    SCOPED_TRACE(friction);
+    SplitRoad road(friction, friction);
+    bool was_locked = false;
+    for (const assists::AssistSettings& assists : {kNone, kAbs, kAll}) {
+      const auto car = MakeWith(GetParam(), assists);
+      ASSERT_TRUE(car->Initialise({.speed_mps = -8.0}, road).ok());
+      bool locked = false;
+      for (int i = 0; i < 8000 && car->state().speed_mps() < -0.1; ++i) {
+        car->Step(Neutral(1.0), road, kStep);
+        if (car->state().speed_mps() > -15.0 * kKmh) continue;
+        for (const WheelState& wheel : car->state().wheels) locked = locked || wheel.spin_radps > -1.0;
+      }
+      EXPECT_GT(car->state().speed_mps(), -0.1);
+      if (!assists.any()) {
+        was_locked = locked;
+      } else {
+        EXPECT_FALSE(locked) << (assists.esc ? "all" : "abs");
+      }
+      const double way_m = -car->state().p_WB_W.x();
+      if (assists.any()) {
+        EXPECT_LT(way_m, 8.0 * 8.0 / (2.0 * 0.75 * friction * 9.81)) << "adhesion used";
+      }
+    }
+    EXPECT_TRUE(was_locked);
+  }
+}
+
+// A gentle bend backward, each way: nothing is braked.
+TEST_P(AssistsOf, StabilityControlLeavesABendBackwardAlone) {
+  const auto with = MakeWith(GetParam(), kAll), without = MakeWith(GetParam(), kNone);
+  SplitRoad road(1.0, 1.0);
+  for (const double angle_rad : {1.0, -1.0}) {
+    for (VehicleModel* car : {with.get(), without.get()}) {
+      ASSERT_TRUE(car->Initialise({.speed_mps = -8.0}, road).ok());
+      Controls controls = Neutral();
+      for (int i = 0; i < 1500; ++i) {
+        controls.steering_wheel_rad = std::clamp(angle_rad, -2.0 * kStep * i, 2.0 * kStep * i);
+        car->Step(controls, road, kStep);
+        for (const WheelState& wheel : car->state().wheels) ASSERT_EQ(wheel.brake_torque_Nm, 0.0) << i;
+      }
+    }
+    EXPECT_LT(angle_rad * with->state().w_WB_B.z(), -0.1) << "backward, the yaw rate is the other way";
+    EXPECT_EQ(with->state().p_WB_W, without->state().p_WB_W);
+  }
+}
+
 // 5.3.6 and 5.3.5: on a road of 1.0 left and 0.3 right from 50 km/h a driver holds the lane with at most 120 degrees in
 // the first two seconds and 240 in all, and the car slows down by at least 0.75 (4 k_low + k_high) / 5 and k_low.
 TEST_P(AssistsOf, AntiLockBrakesLeaveADriverTheLaneOnASplitRoad) {

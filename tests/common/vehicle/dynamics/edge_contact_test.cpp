@@ -65,5 +65,54 @@ TEST(EdgeContact, AKerbIsAnEdgeOverAnyWay) {
   }
 }
 
+// How far the wheel's plane reaches into the disc, along the disc's radius.
+double Pressed(const WheelDisc& disc, const WheelGround& ground) {
+  const double tilt = disc.axle_W.dot(ground.normal_W);
+  return kRadius_m - (disc.hub_W - ground.plane_W).dot(ground.normal_W) / std::sqrt(1.0 - tilt * tilt);
+}
+
+// A face of 7 in 1 that lies 15 to 75 degrees askew: the wheel leaves it over its upper edge, and does not meet it as a
+// wall.
+TEST(EdgeContact, AFaceThatFallsAskewIsLeftOverItsUpperEdge) {
+  for (const Vector3d& axle_W : {Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::Zero())}) {
+    for (const double askew_deg : {15.0, 45.0, 75.0}) {
+      SCOPED_TRACE(askew_deg);
+      const double askew = askew_deg * std::acos(-1.0) / 180.0;
+      const Vector3d down(std::cos(askew), std::sin(askew), 0.0);
+      WheelGround ground = PlaneAt(-0.02, 0.0, 0.0);
+      int turning = 0;
+      for (double x_m = -0.01; x_m < 0.4; x_m += 0.01) {
+        const WheelGround before = ground;
+        ground = PlaneAt(x_m, 0.0, 0.0);
+        if (x_m > 0.0) {
+          ground.plane_W.z() = -7.0 * x_m * down.x();
+          ground.normal_W = Vector3d(7.0 * down.x(), 7.0 * down.y(), 1.0).normalized();
+        }
+        const WheelDisc disc{{x_m, 0.0, kRadius_m - kPressed_m}, axle_W, kRadius_m};
+        RollOn(before, disc, ground);
+        EXPECT_LE(Pressed(disc, ground), kPressed_m + 3e-4) << x_m;
+        if (!ground.edge) continue;
+        ++turning;
+        EXPECT_FALSE(ground.edge->rises) << x_m;
+      }
+      EXPECT_GT(turning, 5);
+    }
+  }
+}
+
+// A kerb that rises to the side as well presses the tyre in no further.
+TEST(EdgeContact, AKerbThatAlsoRisesToTheSideKeepsWhatTheTyreBore) {
+  for (const Vector3d& axle_W : {Vector3d(Vector3d::UnitY()), Vector3d(Vector3d::Zero())}) {
+    const WheelGround before = PlaneAt(0.0, 0.0, 0.0);
+    WheelGround now = PlaneAt(0.01, 0.08, 0.0);
+    now.normal_W = Vector3d(-0.2, -0.5, 1.0).normalized();
+    const WheelDisc disc{{0.01, 0.0, kRadius_m - kPressed_m}, axle_W, kRadius_m};
+    RollOn(before, disc, now);
+    ASSERT_TRUE(now.edge.has_value());
+    EXPECT_TRUE(now.edge->rises);
+    EXPECT_NEAR(Pressed(disc, now), kPressed_m, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace rodeira::dynamics

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "common/vehicle/dynamics/multibody_model.hpp"
@@ -51,6 +52,7 @@ Vector3d TurnedAbout(const Vector3d& from, const Vector3d& to, double angle_rad,
 struct Corner {
   double length_m = 0.0;  // of damper or strut
   Vector3d hub, axle;
+  Eigen::Isometry3d carrier = Eigen::Isometry3d::Identity();  // against where it is drawn
 };
 
 class Linkage : public ::testing::Test {
@@ -86,7 +88,7 @@ class Linkage : public ::testing::Test {
                      at("rack") + Vector3d(0.0, rack_m, 0.0), apart("tie_outer", "rack"), at("tie_outer"));
     const Eigen::Isometry3d moved =
         FrameOf(lower, upper, tie) * FrameOf(at("lower_ball"), at("upper_ball"), at("tie_outer")).inverse();
-    return {(at("damper_top") - foot).norm(), moved * at("hub"), moved.linear() * at("axle")};
+    return {(at("damper_top") - foot).norm(), moved * at("hub"), moved.linear() * at("axle"), moved};
   }
 
   // Strut: its top lies on the carrier's line foot-neck, so that its place in the carrier follows from its distance to
@@ -104,7 +106,7 @@ class Linkage : public ::testing::Test {
                      at("toe_inner"), (at("toe_outer") - at("toe_inner")).norm(), at("toe_outer"));
     const Eigen::Isometry3d moved =
         FrameOf(ball, at("strut_top"), toe) * FrameOf(at("ball"), top_drawn, at("toe_outer")).inverse();
-    return {(top_drawn - at("strut_foot")).norm(), moved * at("hub"), moved.linear() * at("axle")};
+    return {(top_drawn - at("strut_foot")).norm(), moved * at("hub"), moved.linear() * at("axle"), moved};
   }
 
   std::array<double, kWheels> TravelsTo(const std::array<Corner, kWheels>& corners) const {
@@ -117,8 +119,8 @@ class Linkage : public ::testing::Test {
     return corner.hub - settings_.wheel.radius_m * (Vector3d::UnitZ() - corner.axle.z() * corner.axle).normalized();
   }
   // A corner with its hub this far above where it is drawn, by bisection of the arm's angle.
-  Corner AtTravel(const std::string& side, double travel_m) const {
-    const auto corner = [&](double arm) { return side[0] == 'f' ? Wishbones(side, arm, 0.0) : Strut(side, arm); };
+  Corner AtTravel(const std::string& side, double travel_m, double rack_m = 0.0) const {
+    const auto corner = [&](double arm) { return side[0] == 'f' ? Wishbones(side, arm, rack_m) : Strut(side, arm); };
     const double up = side[1] == 'l' ? -1.0 : 1.0;
     double low = -0.3, high = 0.3;
     for (int turn = 0; turn < 60; ++turn) {
@@ -255,6 +257,58 @@ TEST_F(Linkage, FiguresOverTravelAreTheGeometrys) {
       EXPECT_NEAR(found.wheel_rate_Npm, stiffness * shortening * shortening + tension * curvature, 30.0) << wheel;
       EXPECT_GT(found.wheel_rate_Npm, 8000.0);
     }
+  }
+}
+
+// Where the column's spring and the force on a front wheel balance: least energy over the pinion's angle, of positions
+// with the hub at its height. At a rear wheel nothing gives way.
+TEST_F(Linkage, ComplianceIsThatOfTheColumnUnderTheForce) {
+  auto rig = SuspensionRig::Make(settings_);
+  ASSERT_TRUE(rig.ok()) << rig.error().Text();
+  const double stiffness = settings_.steering.column_Nmprad;
+  for (const std::size_t wheel : {0u, 1u}) {
+    const auto found = rig.value().Compliance(wheel, 0.0);
+    ASSERT_TRUE(found.ok()) << found.error().Text();
+    const std::string side = kSides[wheel];
+    const double outward = wheel == 0 ? 1.0 : -1.0;
+    const Vector3d contact = Contact(AtTravel(side, 0.0));
+    const auto at = [&](double pinion) { return AtTravel(side, 0.0, -kPinion * pinion); };
+    const auto balance = [&](const std::function<double(const Corner&)>& work_J) {
+      double low = -0.1, high = 0.1;
+      constexpr double kGolden = 0.6180339887498949;
+      const auto energy_J = [&](double pinion) { return 0.5 * stiffness * pinion * pinion - work_J(at(pinion)); };
+      for (int turn = 0; turn < 60; ++turn) {
+        const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+        (energy_J(a) < energy_J(b) ? high : low) = energy_J(a) < energy_J(b) ? b : a;
+      }
+      return at(0.5 * (low + high));
+    };
+    const auto toe_in = [&](const Corner& corner) { return outward * std::atan2(corner.axle.x(), corner.axle.y()); };
+    const auto camber = [&](const Corner& corner) { return -outward * std::asin(corner.axle.z()); };
+    const auto expect = [&](const WheelCompliance::Change& change, double force, const Corner& corner) {
+      const Corner drawn = at(0.0);
+      EXPECT_NEAR(force * change.toe_in_rad, toe_in(corner) - toe_in(drawn),
+                  0.02 * std::fabs(toe_in(corner) - toe_in(drawn)) + 1e-7);
+      EXPECT_NEAR(force * change.camber_rad, camber(corner) - camber(drawn),
+                  0.02 * std::fabs(toe_in(corner) - toe_in(drawn)) + 1e-7);
+    };
+    constexpr double kForce_N = 100.0, kTorque_Nm = 10.0;
+    expect(found.value().lateral, kForce_N,
+           balance([&](const Corner& corner) { return kForce_N * outward * (corner.carrier * contact).y(); }));
+    expect(found.value().longitudinal, kForce_N,
+           balance([&](const Corner& corner) { return kForce_N * (corner.carrier * contact).x(); }));
+    expect(found.value().aligning, kTorque_Nm, balance([&](const Corner& corner) {
+             const Eigen::AngleAxisd turned(corner.carrier.linear());
+             return -outward * kTorque_Nm * turned.angle() * turned.axis().z();
+           }));
+    EXPECT_GT(std::fabs(found.value().lateral.toe_in_rad), 1e-7) << wheel;
+    EXPECT_GT(found.value().aligning.toe_in_rad, 1e-6) << "it gives way to the torque";
+  }
+  for (const std::size_t wheel : {2u, 3u}) {
+    const auto found = rig.value().Compliance(wheel, 0.0);
+    ASSERT_TRUE(found.ok()) << found.error().Text();
+    EXPECT_NEAR(found.value().aligning.toe_in_rad, 0.0, 1e-12) << wheel;
+    EXPECT_NEAR(found.value().lateral.camber_rad, 0.0, 1e-12) << wheel;
   }
 }
 

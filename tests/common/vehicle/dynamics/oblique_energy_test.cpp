@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The energy of a car that coasts at an angle over an edge or a kerb, or lands from a ramp, does not grow.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <map>
 #include <string>
 
 #include "tests/common/vehicle/dynamics/car_energy.hpp"
@@ -60,6 +62,28 @@ Oblique CoastAcross(VehicleModel& car, double speed_mps, const std::vector<Profi
 // An approach angle of 90 degrees is straight across.
 double TurnedBy(double approach_deg) { return (90.0 - approach_deg) * kDegree; }
 
+void ExpectNoEnergyAtAnAngle(const ModelCase& model, std::uint32_t seed, int pieces) {
+  static std::map<std::string, std::unique_ptr<VehicleModel>> cars;
+  std::unique_ptr<VehicleModel>& car = cars[model.name];
+  if (!car) car = MakeModel(model);
+  const double speed_mps = base::RandomUniform({seed, 1}, 2.0, 25.0);
+  const double approach_deg = base::RandomUniform({seed, 2}, 15.0, 75.0);
+  const double side = base::RandomUniform({seed, 3}, 0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+  const Oblique found =
+      CoastAcross(*car, speed_mps, ProfileGround::Random(seed, pieces), side * TurnedBy(approach_deg));
+  RC_ASSERT(found.most_J <= 1.001 * found.start_J);
+}
+
+RC_GTEST_PROP(ObliqueEnergy, ABicycleCarGetsNoneAtAnyAngle, (std::uint32_t seed)) {
+  ExpectNoEnergyAtAnAngle(kBicycle, seed, 3);
+}
+RC_GTEST_PROP(ObliqueEnergy, AnOdeCarGetsNoneAtAnyAngle, (std::uint32_t seed)) {
+  ExpectNoEnergyAtAnAngle(kOde, seed, 2);
+}
+RC_GTEST_PROP(ObliqueEnergy, AMultibodyCarGetsNoneAtAnyAngle, (std::uint32_t seed)) {
+  ExpectNoEnergyAtAnAngle(kMultibody, seed, 1);
+}
+
 // Down a ramp of 2 m on 4 m at 10 m/s the front wheels land with another spin than the road has. Their tyres take 100 J
 // into their deflection and give them back: with it, nothing is gained.
 TEST(RampEnergy, ALandingGivesBackWhatTheTyresHold) {
@@ -81,6 +105,16 @@ TEST(RampEnergy, ALandingGivesBackWhatTheTyresHold) {
 }
 
 class AtAnAngle : public ::testing::TestWithParam<ModelCase> {};
+
+// Down a face of 7 in 1 that lies 45 degrees askew, which counted as a wall: the front wheel took 2 kJ from nothing.
+TEST_P(AtAnAngle, ASteepFaceThatLiesAskewIsLeftAndGivesNothing) {
+  auto car = MakeModel(GetParam());
+  for (const double side : {-1.0, 1.0}) {
+    const Oblique found = CoastAcross(*car, 10.0, {{10.0, 1.0}, {10.14, 0.0}}, side * TurnedBy(45.0));
+    EXPECT_LE(found.most_J, 1.001 * found.start_J);
+    EXPECT_TRUE(found.has_crossed);
+  }
+}
 
 TEST_P(AtAnAngle, KerbsAndEdgesGiveNothing) {
   auto car = MakeModel(GetParam());

@@ -181,6 +181,30 @@ const std::string kFiala =
     "VERTICAL_STIFFNESS = 310\nCSLIP = 80000\nCALPHA = 900\nUMIN = 0.7\nUMAX = 0.95\n";
 
 // Against the model's definition (E. Fiala 1954; Adams/Tire): stiffness, the end of adhesion, and full sliding.
+// Numbers of another unit or a slip of the pen: forces that no tyre has are refused at their line, those of no road
+// vehicle are warned of.
+TEST(TyreFile, ValuesThatNoTyreHasAreRefusedAtTheirLine) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return Refusal(Changed(kPac2002, from, to));
+  };
+  EXPECT_THAT(refused("PDX1 = 1.15", "PDX1 = 1e9"), HasSubstr("t.tir:29: 'PDX1'"));
+  EXPECT_THAT(refused("LMUX = 1", "LMUX = 1e9"), HasSubstr("t.tir:29: 'PDX1'"));
+  EXPECT_THAT(refused("UNLOADED_RADIUS = 0.33", "UNLOADED_RADIUS = 5e6"), HasSubstr("t.tir:10: 'UNLOADED_RADIUS'"));
+  EXPECT_THAT(refused("FNOMIN = 4200", "FNOMIN = 1e-9"), HasSubstr("t.tir:12: 'FNOMIN'"));
+  EXPECT_THAT(refused("FZMAX = 9500", "FZMAX = 1e12"), HasSubstr("t.tir:15: 'FZMAX'"));
+  EXPECT_THAT(refused("PKX1 = 23", "PKX1 = 23e6"), HasSubstr("t.tir:32: 'PKX1'"));
+  EXPECT_THAT(refused("PPX1 = -0.35", "PVX1 = 1e9"), HasSubstr("t.tir:34: 'PVX1'"));
+  EXPECT_THAT(Read(kPac2002).warnings, Not(Contains(HasSubstr("usual of"))));
+  const auto warned = [](const std::string& from, const std::string& to) {
+    return Read(Changed(kPac2002, from, to)).warnings;
+  };
+  EXPECT_THAT(warned("PDX1 = 1.15", "PDX1 = 8"), Contains(HasSubstr("'PDX1' in line 29:")));
+  EXPECT_THAT(warned("IP = 230000\nIP_NOM = 230000", "IP = 230\nIP_NOM = 230"),
+              Contains(HasSubstr("'NOMPRES' in line 26:")));
+  EXPECT_THAT(warned("PPX1 = -0.35", "PVX1 = 7"), Contains(HasSubstr("'PVX1' in line 34:")));
+  EXPECT_THAT(warned("UNLOADED_RADIUS = 0.33", "UNLOADED_RADIUS = 2"), Contains(HasSubstr("in line 10:")));
+}
+
 TEST(TyreFile, FialaIsReadInItsUnitsAndSlidesAtItsFriction) {
   const TyreFile file = Read(kFiala);
   EXPECT_EQ(file.kind, "Fiala");

@@ -51,8 +51,10 @@ TEST(UsualValues, ASpringInTheWrongUnitIsNamedWithTheUsualRange) {
 
 // K = PKY1 FNOMIN sin(PKY4 atan(1 / PKY2)) LKY: 18 * 3500 * sin(2 atan(1 / 1.9)) * 0.8 N.
 TEST(UsualValues, ATyreThatPushesTheWrongWayIsNamed) {
-  EXPECT_THAT(After("PKY1: -18", "PKY1: +18"), ElementsAre(Names("car.yaml:61: … 'tyre.front' … is 41544")));
+  EXPECT_THAT(After("PKY1: -18", "PKY1: +18"),
+              ElementsAre(Names("car.yaml:61: … 'tyre.front.magic_formula.PKY1' … is 41544")));
   EXPECT_THAT(After("PKY1: -18", "PKY1: -0.018"), ElementsAre(Names("tyre.front … -41.5")));
+  EXPECT_THAT(After("PDX1: 1.05", "PDX1: 105"), ElementsAre(Names("tyre.front … PDX1 … is 105")));
 }
 
 }  // namespace

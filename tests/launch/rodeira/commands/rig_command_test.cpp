@@ -35,7 +35,8 @@ TEST(RigCommand, PrintsFiguresAndWritesTablesAndPictures) {
   const Said said = SaidBy(Vehicle, Rig(SourceDir() + "/configs/vehicles/prototype.yaml", folder.path() / "rig"));
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(said.errors, "");
-  for (const char* row : {"toe-in over travel", "height of the roll centre", "caster", "scrub radius"})
+  for (const char* row :
+       {"toe-in over travel", "height of the roll centre", "caster", "scrub radius", "toe-in by force outward"})
     EXPECT_THAT(said.out, HasSubstr(row));
   const std::string travel = base::ReadText(folder.path() / "rig/travel.csv").value();
   EXPECT_THAT(travel, StartsWith("travel_m,front_left_toe_in_deg,front_left_camber_deg,front_left_outward_m,"));
