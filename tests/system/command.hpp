@@ -31,10 +31,14 @@ class Started {
   pid_t pid() const { return pid_; }
   // Waits until the output holds `text`; how long that took, or a negative duration where it did not come.
   std::chrono::milliseconds WaitFor(const std::string& text, std::chrono::milliseconds limit);
+  // Likewise for a line that names these things in this order, separated by " … ".
+  std::chrono::milliseconds WaitForLine(const std::string& things, std::chrono::milliseconds limit);
   Ended Wait(std::chrono::milliseconds limit = std::chrono::milliseconds(60000));
 
  private:
   bool Read(int wait_ms);
+  template <class Condition>
+  std::chrono::milliseconds WaitUntil(const Condition& holds, std::chrono::milliseconds limit);
   pid_t pid_ = -1;
   int pipe_ = -1;
   std::string out_;

@@ -69,31 +69,31 @@ TEST_F(ResultFiles, EveryCommandThatWritesKeepsTheRule) {
   const std::string old = folder_.Write("old.csv", "precious").string();
   (void)folder_.Write("full/a.csv", "precious");
   const std::string full = Path("full"), none = Path("none");
-  for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"measures", none, "-o", old},
-                                             {"measures", none, "--series", old},
-                                             {"report", none, "-o", old},
-                                             {"traffic", "run", none, "--csv", full},
-                                             {"traffic", "run", none, "--heat", old},
-                                             {"traffic", "run", none, "--fcd", old},
-                                             {"traffic", "run", none, "--tripinfo", old},
-                                             {"traffic", "run", none, "--diagram", old},
-                                             {"vehicle", "test", none, "--csv", old},
-                                             {"vehicle", "test", none, "--svg", old},
-                                             {"vehicle", "test", none, "--out", full},
-                                             {"vehicle", "rig", none, "--out", full},
-                                             {"vehicle", "tyre", none, "--csv", old},
-                                             {"mechanism", "run", none, "--step", "0.001", "--until", "1", "--svg", old},
-                                             {"polyline", "join", none, none, "-o", old},
-                                             {"surface", "check", none, "--svg", old},
-                                             {"map", "convert", none, "-o", old},
-                                             {"world", "map", none, "-o", old},
-                                             {"world", "export", none, "-o", old},
-                                             {"world", "import", none, "-o", old},
-                                             {"world", "check", none, "--repair", old},
-                                             {"world", "info", none, "--profile", old},
-                                             {"input", "setup", "-o", old},
-                                             {"replay", none, "--frames", full, "--at", "1"}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"measures", none, "-o", old},
+           {"measures", none, "--series", old},
+           {"report", none, "-o", old},
+           {"traffic", "run", none, "--csv", full},
+           {"traffic", "run", none, "--heat", old},
+           {"traffic", "run", none, "--fcd", old},
+           {"traffic", "run", none, "--tripinfo", old},
+           {"traffic", "run", none, "--diagram", old},
+           {"vehicle", "test", none, "--csv", old},
+           {"vehicle", "test", none, "--svg", old},
+           {"vehicle", "test", none, "--out", full},
+           {"vehicle", "rig", none, "--out", full},
+           {"vehicle", "tyre", none, "--csv", old},
+           {"mechanism", "run", none, "--step", "0.001", "--until", "1", "--svg", old},
+           {"polyline", "join", none, none, "-o", old},
+           {"surface", "check", none, "--svg", old},
+           {"map", "convert", none, "-o", old},
+           {"world", "map", none, "-o", old},
+           {"world", "export", none, "-o", old},
+           {"world", "import", none, "-o", old},
+           {"world", "check", none, "--repair", old},
+           {"world", "info", none, "--profile", old},
+           {"input", "setup", "-o", old},
+           {"replay", none, "--frames", full, "--at", "1"}}) {
     std::vector<std::string> line{Bin("rodeira"), "--json"};
     line.insert(line.end(), words.begin(), words.end());
     const system_test::Ended ended = system_test::RunCommand(line);
