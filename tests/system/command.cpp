@@ -169,6 +169,22 @@ bool Runs(const std::string& run_name, std::chrono::milliseconds limit) {
   return false;
 }
 
+std::int64_t StepIn(const std::string& state) {
+  const std::string before = "at step ";
+  const auto at = state.find(before);
+  return at == std::string::npos ? -1 : std::strtoll(state.c_str() + at + before.size(), nullptr, 10);
+}
+
+bool WaitForStep(const std::string& run_name, std::int64_t step, std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  if (!Runs(run_name, limit)) return false;
+  while (WallClock::now() < until) {
+    if (StepIn(RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).out) >= step) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
 std::string DigestIn(const std::string& table) {
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) {

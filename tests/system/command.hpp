@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,12 @@ pid_t ProcessWith(const std::string& first, const std::string& second, pid_t bef
 
 // Waits until a run of separate processes goes on; false where it does not within `limit`.
 bool Runs(const std::string& run_name, std::chrono::milliseconds limit = std::chrono::milliseconds(30000));
+
+// The step that an answer of `rodeira ctl state` says; -1: it says none.
+std::int64_t StepIn(const std::string& state);
+// Waits until the run has granted this step; false where it does not within `limit`.
+bool WaitForStep(const std::string& run_name, std::int64_t step,
+                 std::chrono::milliseconds limit = std::chrono::milliseconds(30000));
 
 // The word behind "digest" in a closing table.
 std::string DigestIn(const std::string& table);

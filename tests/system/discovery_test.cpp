@@ -149,7 +149,6 @@ class DeadRun : public ::testing::Test {
     const auto until = std::chrono::steady_clock::now() + 10s;
     while (cli::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until)
       ::usleep(5000);
-    std::this_thread::sleep_for(300ms);
     ::kill(node.pid(), SIGKILL);
     node.Wait(5s);
     std::set<std::string> left;

@@ -85,8 +85,8 @@ class Hosts : public ::testing::Test {
     while (ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() < 4 &&
            std::chrono::steady_clock::now() < until)
       ::usleep(5000);
-    std::this_thread::sleep_for(1s);
-    return ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() == 4;
+    return WaitForStep(Rig::RunName(), 500) &&
+           ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() == 4;
   }
   void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira").empty()); }
 

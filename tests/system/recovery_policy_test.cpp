@@ -21,8 +21,7 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   Undisturbed("8");
   const std::string run_name = "recovery-pause-" + std::to_string(::getpid());
   Started run(Command(run_name, File("pause.mcap"), "8", "pause"));
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(500ms);
+  ASSERT_TRUE(WaitForStep(run_name, 1000));
   // As a debugger stops it: it goes on when it is let go on.
   const pid_t ego = Find(run_name, "ego");
   ASSERT_GT(ego, 0);
@@ -33,7 +32,7 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   EXPECT_EQ(state.status, 0) << state.out;
   EXPECT_THAT(state.out, HasLine("it stands: node 'ego' … signal 19")) << "the end of the chain of waiting is named";
   ::kill(ego, SIGCONT);
-  std::this_thread::sleep_for(500ms);
+  ASSERT_TRUE(WaitForStep(run_name, StepIn(state.out) + 1000)) << "it goes on";
   // Dead, it needs a person's word.
   const pid_t traffic = Find(run_name, "traffic");
   ASSERT_GT(traffic, 0);
@@ -58,8 +57,7 @@ TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
                                     "empty}\n  recorder: {kind: recorder}\n");
   Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "8", "--pace", "real", "--record",
                File("pace.mcap")});
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(3s);
+  ASSERT_TRUE(WaitForStep(run_name, 3000));
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"pause"}, {"step", "10"}, {"resume"}, {"restart", "a"}}) {
     std::vector<std::string> command{Bin("rodeira"), "ctl", "--run", run_name};
@@ -140,8 +138,7 @@ TEST_F(Recovery, ANodeThatReadsAClockIsDetectedWhenItIsRestarted) {
   const std::string run_name = "recovery-broken-" + std::to_string(::getpid());
   Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "60", "--pace", "real", "--record",
                File("broken.mcap")});
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(WaitForStep(run_name, 1500));
   const pid_t broken = Find(run_name, "b");
   ASSERT_GT(broken, 0);
   ::kill(broken, SIGKILL);

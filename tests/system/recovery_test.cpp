@@ -65,8 +65,7 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
 TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
   const std::string run_name = "recovery-time-" + std::to_string(::getpid());
   Started run(Command(run_name, File("time.mcap"), "6", "restart"));
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(300ms);
+  ASSERT_TRUE(WaitForStep(run_name, 600));
   const pid_t ego = Find(run_name, "ego");
   ASSERT_GT(ego, 0);
   ::kill(ego, SIGKILL);
@@ -95,8 +94,7 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   Undisturbed("8");
   const std::string run_name = "recovery-clock-" + std::to_string(::getpid());
   Started run(Command(run_name, File("clock.mcap"), "8", "restart"));
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(500ms);
+  ASSERT_TRUE(WaitForStep(run_name, 1000));
   const pid_t clock = Find(run_name, "clock");
   ASSERT_GT(clock, 0);
   ::kill(clock, SIGKILL);
@@ -173,9 +171,8 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   digest_ = DigestIn(undisturbed.out);
   samples_ = SamplesOf(File(calm + ".mcap"));
   Started run(command(struck, "real"));
-  ASSERT_TRUE(Runs(struck));
-  for (const int signal : {SIGKILL, SIGSTOP}) {
-    std::this_thread::sleep_for(500ms);
+  for (const auto& [signal, step] : {std::pair(SIGKILL, 600), std::pair(SIGSTOP, 1800)}) {
+    ASSERT_TRUE(WaitForStep(struck, step));
     const pid_t view = Find(struck, "view");
     ASSERT_GT(view, 0);
     ::kill(view, signal);
@@ -197,8 +194,7 @@ TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
   Undisturbed("8");
   const std::string run_name = "recovery-recorder-" + std::to_string(::getpid());
   Started run(Command(run_name, File("stopped.mcap"), "8", "restart"));
-  ASSERT_TRUE(Runs(run_name));
-  std::this_thread::sleep_for(500ms);
+  ASSERT_TRUE(WaitForStep(run_name, 1000));
   const pid_t recorder = Find(run_name, "recorder");
   ASSERT_GT(recorder, 0);
   ::kill(recorder, SIGSTOP);
