@@ -30,9 +30,12 @@ class SpeedLimits {
   };
   explicit SpeedLimits(const Reads& reads) : in_(reads) {}
 
+  // The plan of the track at a place of its way, and what the beginnings of those beyond leave, braked for as the plans
+  // are.
   driver::SpeedPlan::Allowed Allowed(std::uint32_t id, double odometer_m) const;
   double LimitOn(std::uint32_t track, double d_m) const;
   double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
+  // By the limit where it is: the speed without any vehicle and any bend.
   double Desired_mps(std::uint32_t id) const;
   double AllowedAt(std::uint32_t id, double odometer_m) const;
 
