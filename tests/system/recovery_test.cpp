@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include "common/core/base/files.hpp"
 #include "idl/messages.hpp"
