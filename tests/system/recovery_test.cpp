@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <random>
 #include <thread>
-#include <utility>
 
 #include "common/core/base/files.hpp"
 #include "idl/messages.hpp"
@@ -171,13 +170,14 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   ASSERT_EQ(undisturbed.status, 0) << undisturbed.out;
   digest_ = DigestIn(undisturbed.out);
   samples_ = SamplesOf(File(calm + ".mcap"));
-  Started run(command(struck, "real"));
-  for (const auto& [signal, step] : {std::pair(SIGKILL, 600), std::pair(SIGSTOP, 1800)}) {
-    ASSERT_TRUE(WaitForStep(struck, step));
+  Started run(command(struck, "2"));
+  ASSERT_TRUE(Runs(struck));
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    std::this_thread::sleep_for(500ms);
     const pid_t view = Find(struck, "view");
     ASSERT_GT(view, 0);
     ::kill(view, signal);
-    ASSERT_GE(run.WaitForLine("node 'view' … signal " + std::to_string(signal) + " (", 20s), 0ms);
+    ASSERT_GE(run.WaitFor(signal == SIGKILL ? "node 'view' was killed" : "node 'view' was stopped", 20s), 0ms);
   }
   ExpectUndisturbed(run.Wait(120s), File(struck + ".mcap"));
   std::size_t pictures = 0;
