@@ -51,6 +51,7 @@ class Recorder {
  public:
   explicit Recorder(Document& document) : document_(document) {}
 
+  // An index is that of the element in its list of the document.
   void Add(const traffic_map::Curve& curve) { Insert(document_.map.curves, curve); }
   void Add(const traffic_map::Lane& lane) { Insert(document_.map.lanes, lane); }
   void Add(const traffic_map::Connection& connection) { Insert(document_.map.connections, connection); }

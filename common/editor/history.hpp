@@ -11,7 +11,7 @@
 namespace rodeira::editor {
 
 // A document and everything that was done to it, to be taken back and done again. Each state has a number: equal
-// numbers are equal documents.
+// numbers are equal documents. One thread.
 class History {
  public:
   explicit History(Document document) : document_(std::move(document)) {}
@@ -28,7 +28,8 @@ class History {
     return {};
   }
   // The last edit, which was a part of the same gesture (a handle that is dragged on), is replaced: its change is taken
-  // back first. Where the command fails it is done again.
+  // back first. Where the command fails it is done again, and the command's error is returned. There must be a last
+  // edit (CanUndo).
   template <class Command>
   base::Status Again(const Command& command) {
     done_.back().edit.Undo(document_);

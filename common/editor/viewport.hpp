@@ -13,6 +13,7 @@ struct Viewport {
 
   // The length of what is visible, from edge to edge.
   double width_m() const { return width_px * metres_per_px; }
+  // The point of W at a pixel of the canvas, and the pixel at a point of W; either may lie outside of the canvas.
   Eigen::Vector2d ToWorld(const Eigen::Vector2d& px) const {
     return middle_W + metres_per_px * Eigen::Vector2d(px.x() - 0.5 * width_px, 0.5 * height_px - px.y());
   }
@@ -22,6 +23,7 @@ struct Viewport {
   }
   // What is held in the hand at `px` goes along with it.
   void Drag(const Eigen::Vector2d& by_px) { Go({-by_px.x() * metres_per_px, by_px.y() * metres_per_px}); }
+  // Moves the middle by so many metres, east and north.
   void Go(const Eigen::Vector2d& by_W);
   // So many times larger (above 0); the point below `px` stays where it is.
   void Zoom(double times, const Eigen::Vector2d& px);

@@ -42,7 +42,7 @@ struct Simulation;
 // or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles,
 // wherever they are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here
 // depends on order of arrival, threads or the clock: the state is Save's, and each step is a function of it and of
-// `others`.
+// `others`. One thread calls; a step itself uses the threads of its settings. Points and rectangles lie in W.
 class TrafficModel {
  public:
   TrafficModel(const TrafficModel& other);
@@ -111,6 +111,7 @@ class TrafficModel {
   // All agents on the road, including crashed ones, by ascending id: poses in W after the last step. The next step
   // replaces them.
   const std::vector<AgentPose>& poses() const;
+  // What an agent is (size, driver), and its state after the last step; the references hold until the next step.
   const AgentTraits& traits(std::uint32_t id) const;
   const Agent& agent(std::uint32_t id) const;
   // MOTORS' driver of an agent; null where others drive.
@@ -123,6 +124,7 @@ class TrafficModel {
   // By flow of the settings.
   using FlowCount = traffic::FlowCount;
   const std::vector<FlowCount>& flows() const;
+  // How many vehicles have reached the end of their way so far.
   std::uint64_t ended() const;
   // Vehicles that left the road in the last step, by ascending number.
   const std::vector<Leaver>& leavers() const;

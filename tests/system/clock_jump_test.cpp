@@ -86,7 +86,7 @@ TEST_F(ClockJump, ChangesNothingButStamps) {
     Started run(Command({"--pace", "real", "--for", "4", "--record", recording}));
     ASSERT_TRUE(Runs(Name()));
     *shift_s_ = years * kYear_s;
-    std::this_thread::sleep_for(1s);
+    ASSERT_TRUE(WaitForStep(Name(), 1500));
     *shift_s_ = -*shift_s_ / 2;
     const Ended ended = run.Wait(40s);
     EXPECT_EQ(ended.status, 0) << ended.out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/system/command.hpp"
+#include "tests/names.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -83,13 +84,22 @@ bool Started::Read(int wait_ms) {
   return true;
 }
 
-std::chrono::milliseconds Started::WaitFor(const std::string& text, std::chrono::milliseconds limit) {
+template <class Condition>
+std::chrono::milliseconds Started::WaitUntil(const Condition& holds, std::chrono::milliseconds limit) {
   const auto begin = WallClock::now();
-  while (out_.find(text) == std::string::npos) {
+  while (!holds()) {
     if (WallClock::now() - begin > limit) return std::chrono::milliseconds(-1);
     if (!Read(10)) ::usleep(2000);
   }
   return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - begin);
+}
+
+std::chrono::milliseconds Started::WaitFor(const std::string& text, std::chrono::milliseconds limit) {
+  return WaitUntil([&] { return out_.find(text) != std::string::npos; }, limit);
+}
+
+std::chrono::milliseconds Started::WaitForLine(const std::string& things, std::chrono::milliseconds limit) {
+  return WaitUntil([&] { return HasLineWith(things, out_); }, limit);
 }
 
 Ended Started::Wait(std::chrono::milliseconds limit) {
@@ -154,6 +164,22 @@ bool Runs(const std::string& run_name, std::chrono::milliseconds limit) {
   while (WallClock::now() < until) {
     if (HasControlSocket(run_name) && RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).status == 0)
       return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+std::int64_t StepIn(const std::string& state) {
+  const std::string before = "at step ";
+  const auto at = state.find(before);
+  return at == std::string::npos ? -1 : std::strtoll(state.c_str() + at + before.size(), nullptr, 10);
+}
+
+bool WaitForStep(const std::string& run_name, std::int64_t step, std::chrono::milliseconds limit) {
+  const auto until = WallClock::now() + limit;
+  if (!Runs(run_name, limit)) return false;
+  while (WallClock::now() < until) {
+    if (StepIn(RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"}).out) >= step) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return false;

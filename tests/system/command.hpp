@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,14 @@ class Started {
   pid_t pid() const { return pid_; }
   // Waits until the output holds `text`; how long that took, or a negative duration where it did not come.
   std::chrono::milliseconds WaitFor(const std::string& text, std::chrono::milliseconds limit);
+  // Likewise for a line that names these things in this order, separated by " … ".
+  std::chrono::milliseconds WaitForLine(const std::string& things, std::chrono::milliseconds limit);
   Ended Wait(std::chrono::milliseconds limit = std::chrono::milliseconds(60000));
 
  private:
   bool Read(int wait_ms);
+  template <class Condition>
+  std::chrono::milliseconds WaitUntil(const Condition& holds, std::chrono::milliseconds limit);
   pid_t pid_ = -1;
   int pipe_ = -1;
   std::string out_;
@@ -50,6 +55,12 @@ pid_t ProcessWith(const std::string& first, const std::string& second, pid_t bef
 
 // Waits until a run of separate processes goes on; false where it does not within `limit`.
 bool Runs(const std::string& run_name, std::chrono::milliseconds limit = std::chrono::milliseconds(30000));
+
+// The step that an answer of `rodeira ctl state` says; -1: it says none.
+std::int64_t StepIn(const std::string& state);
+// Waits until the run has granted this step; false where it does not within `limit`.
+bool WaitForStep(const std::string& run_name, std::int64_t step,
+                 std::chrono::milliseconds limit = std::chrono::milliseconds(30000));
 
 // The word behind "digest" in a closing table.
 std::string DigestIn(const std::string& table);

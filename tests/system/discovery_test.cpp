@@ -16,6 +16,7 @@
 
 #include "launch/rodeira/run/shared_memory.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira::system_test {
@@ -108,12 +109,11 @@ class LabRefusal : public ::testing::Test {
 };
 
 TEST_F(LabRefusal, Hosts) {
-  EXPECT_THAT(Of({"--lab", lab_, "--host", "lefft"}),
-              HasSubstr("rig.yaml: there is no host 'lefft'; did you mean 'left'?"));
+  EXPECT_THAT(Of({"--lab", lab_, "--host", "lefft"}), HasLine("rig.yaml: … host 'lefft' … 'left'"));
   EXPECT_THAT(Of({"--lab", lab_, "--host", "right", "--set", "nodes.a.host=right"}),
               HasSubstr("host 'right' has the address 203.0.113.7, which this PC does not have"));
   EXPECT_THAT(Of({"--lab", lab_, "--host", "left", "--set", "nodes.a.host=rigth"}),
-              HasSubstr("node 'a' belongs to host 'rigth', which is not in " + lab_ + "; did you mean 'right'?"));
+              HasLine("node 'a' … host 'rigth' … " + lab_ + " … 'right'"));
   const std::string other =
       folder_
           .Write("other.yaml",
@@ -149,7 +149,6 @@ class DeadRun : public ::testing::Test {
     const auto until = std::chrono::steady_clock::now() + 10s;
     while (cli::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until)
       ::usleep(5000);
-    std::this_thread::sleep_for(300ms);
     ::kill(node.pid(), SIGKILL);
     node.Wait(5s);
     std::set<std::string> left;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The third table of docs/reference/ends.md: what happens to a PC of a run across two PCs, by each cause under each
 // policy, with real processes in network namespaces. Skipped where none can be made.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/long_form.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/ends_table.hpp"
 #include "tests/system/rig.hpp"
@@ -164,9 +166,7 @@ TEST_P(HostsEnds, AreThoseOfTheTable) {
     const bool in_order = outcome == "ends, or in order" && ended.out.find("\nfaults  none\n") != std::string::npos;
     EXPECT_EQ(ended.status, outcome == "goes on" || in_order ? 0 : 1) << ended.out;
     if (outcome == "ends, or in order" && !in_order) {
-      EXPECT_TRUE(ended.out.find("was told to end by signal 15") != std::string::npos ||
-                  ended.out.find("stopped by a signal before these nodes had finished: '") != std::string::npos)
-          << ended.out;
+      EXPECT_THAT(ended.out, testing::AnyOf(HasLine("signal 15"), HasLine("stopped by a signal … '")));
     }
     EXPECT_NE(ended.out.find(row->message), std::string::npos) << ended.out;
     if (outcome == "goes on") {
@@ -194,7 +194,7 @@ TEST_F(TwoHosts, ANodeIsStartedAgainOnceItsInterfaceRuns) {
   pcs[0] = Start(0, "restart");
   ASSERT_TRUE(WaitUntilItDrives());
   rig_->SetRunning(1, false);
-  ASSERT_GE(pcs[1]->WaitFor("no running interface of this PC has the address", 10s), 0ms);
+  ASSERT_GE(pcs[1]->WaitForLine("no running interface … address", 10s), 0ms);
   const auto nodes = ProcessesWith("--run " + Rig::RunName(), "--node b");
   ASSERT_EQ(nodes.size(), 1u);
   ::kill(nodes.front(), SIGKILL);

@@ -56,8 +56,7 @@ TEST_F(Leftover, OfANormalEnd) {
 TEST_F(Leftover, TwoSecondsAfterCtrlC) {
   Started run(Demo("left-ctrlc", {"--for", "1000", "--pace", "real"}));
   WaitUntilAllAreThere("left-ctrlc");
-  ASSERT_TRUE(Runs("left-ctrlc"));
-  std::this_thread::sleep_for(1s);
+  ASSERT_TRUE(WaitForStep("left-ctrlc", 1000));
   ::kill(run.pid(), SIGINT);
   std::this_thread::sleep_for(2s);
   EXPECT_TRUE(ProcessesWith("--run left-ctrlc", "bin/rodeira-").empty());
@@ -79,8 +78,7 @@ TEST_F(Leftover, TwoSecondsAfterCtrlCDuringTheStart) {
 TEST_F(Leftover, TwoSecondsAfterRodeiraItselfWasKilled) {
   Started run(Demo("left-killed", {"--for", "1000", "--pace", "real"}));
   WaitUntilAllAreThere("left-killed");
-  ASSERT_TRUE(Runs("left-killed"));
-  std::this_thread::sleep_for(1s);
+  ASSERT_TRUE(WaitForStep("left-killed", 1000));
   ::kill(run.pid(), SIGKILL);
   std::this_thread::sleep_for(2s);
   EXPECT_TRUE(ProcessesWith("--run left-killed", "bin/rodeira-").empty());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Live input between processes: this test plays a window of the run, its keys travel over DDS into recorded controls.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,6 +18,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "tests/names.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
@@ -107,7 +109,7 @@ TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   // Computed again without a person at the keys: what was pressed is in the recording.
   const Ended verified = RunCommand({Bin("rodeira"), "replay", Path("live.mcap"), "--verify"});
   EXPECT_EQ(verified.status, 0) << verified.out;
-  EXPECT_NE(verified.out.find("live input taken from the recording: driver"), std::string::npos) << verified.out;
+  EXPECT_THAT(verified.out, HasLine("live input … : driver"));
   EXPECT_NE(verified.out.find("identical: 7000 steps, "), std::string::npos) << verified.out;
 }
 
@@ -182,11 +184,7 @@ TEST_F(Live, TheWheelsLaunchFileDrivesByKeysWithoutAWheel) {
   const Ended ended = RunCommand(
       {Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("keys.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 0) << ended.out;
-  EXPECT_NE(
-      ended.out.find("node 'driver': info: no wheel that was set up (`rodeira input setup`) and no game pad is there "
-                     "(no device is connected); the windows' keys drive"),
-      std::string::npos)
-      << ended.out;
+  EXPECT_THAT(ended.out, HasLine("node 'driver': info: no wheel … no game pad … no device … keys drive"));
 }
 
 TEST_F(Live, DrivingByKeysNeedsAWindow) {

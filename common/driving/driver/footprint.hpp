@@ -18,6 +18,7 @@ struct Footprint {
   double width_m = 0.0;
 };
 
+// The rectangle of a car in W, from its bumpers, which need not lie evenly about B's origin.
 Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state,
                       const dynamics::VehicleDimensions& dimensions);
 

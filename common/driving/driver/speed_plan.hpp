@@ -26,7 +26,7 @@ struct SpeedPlanSettings {
 double LateralAllowed(double outward, const SpeedPlanSettings& settings);
 
 // The speed that a lane allows a careful driver: the least of the limit and what bends, crests and steep descents
-// leave, met by planned braking. Computed once a lane.
+// leave, met by planned braking. Computed once a lane; immutable from then on.
 class SpeedPlan {
  public:
   SpeedPlan(const Way& path, const SpeedPlanSettings& settings);
@@ -35,6 +35,7 @@ class SpeedPlan {
     double speed_mps = 0.0;
     double slope_1ps = 0.0;  // d speed / d distance; times speed it is the acceleration that keeps to the plan
   };
+  // At a distance along the way.
   Allowed At(double d_m) const;
 
   // v² there; linear between: constant acceleration. Only where it bends: near memory holds a street then.

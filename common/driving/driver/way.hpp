@@ -27,7 +27,8 @@ struct LaneSpan {
   double speed_mps = 0.0;  // along the lane, negative against its traffic
 };
 
-// What a driver follows: the middle of a lane, or of a chain of lanes, by the distance d along it.
+// What a driver follows: the middle of a lane, or of a chain of lanes, by the distance d along it in the direction of
+// its traffic. Distances are metres, points lie in W, headings count from east counter-clockwise.
 class Way {
  public:
   // The coordinates of a point: how far along, and how far to the left.
@@ -43,12 +44,14 @@ class Way {
   };
 
   virtual ~Way() = default;
+  // The largest d; the smallest is 0.
   virtual double length_m() const = 0;
   virtual double SpeedLimit_mps(double d_m) const = 0;
   virtual LaneFrame At(double d_m) const = 0;
   // p_W and heading_rad of At.
   virtual Eigen::Vector3d MiddleAt(double d_m) const { return At(d_m).p_W; }
   virtual double HeadingAt(double d_m) const { return At(d_m).heading_rad; }
+  // Of the middle's height over d: positive in a sag, negative over a crest.
   virtual double VerticalCurvature_1pm(double d_m) const = 0;
   // The surface at d, `offset_m` to the left of the middle as its traffic sees it.
   virtual Eigen::Vector3d Position(double d_m, double offset_m) const = 0;

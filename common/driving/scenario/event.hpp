@@ -46,6 +46,7 @@ struct EventKind {
   double low = 0.0, high = 0.0;  // of the value
   ValueKind value = ValueKind::kNumber;
 };
+// All kinds of events that nodes obey or recordings hold.
 std::span<const EventKind> EventKinds();
 // Null where there is no such kind.
 const EventKind* FindEventKind(std::string_view name);
@@ -63,9 +64,11 @@ struct AgentChoice {
   std::uint32_t id = 0;
   std::optional<At> at;  // kNext: always
 };
+// This and the functions below read an event's argument; Wrong input, with what was expected, where it is none.
 base::Result<AgentChoice> ParseAgent(std::string_view text);
 // Of one agent where on which lane: "20 at main:-1 350"; the road of `at` is then ROAD:LANE.
 base::Result<AgentChoice> ParseAgentOnLane(std::string_view text);
+// The argument that ParseAgent reads as this agent at this place.
 std::string AgentText(std::string_view agent, const AgentChoice::At& at);
 
 // Which car, and where: "ego 12.5 -3.25", metres; with a third number the height near which the ground is meant.
@@ -75,6 +78,7 @@ struct PlaceChoice {
   std::optional<double> z_m;
 };
 base::Result<PlaceChoice> ParsePlace(std::string_view text);
+// The argument that ParsePlace reads as this place.
 std::string PlaceText(const PlaceChoice& place);
 
 // Wind that meets a car from a side, and for how long: "ego 90 1.5" is from the north (0 is east), 1.5 s.

@@ -20,6 +20,8 @@ struct Request {
   double value = 0.0;
 };
 
+// The requests for a car at a place, facing a heading (0 is east, counter-clockwise), and for a weather that is reached
+// within `over_s` seconds.
 Request PlaceRequest(const PlaceChoice& place, double heading_deg);
 Request WeatherRequest(std::string_view weather, double over_s);
 

@@ -30,12 +30,10 @@ double EntersAt_m(const lanes::Graph& graph, std::uint32_t track) {
 
 }  // namespace
 
-// Where it enters on this trip: by lot.
 std::uint32_t Entering::DrawEntry(std::uint32_t id, std::uint32_t trip) const {
   return in_.map.DrawEntry(base::RandomBits({in_.settings.seed, id, kDrawLane, trip}));
 }
 
-// The speed from which it can stop before the first zones that are not its own.
 double Entering::AtMostForLine(std::uint32_t id) {
   out_.passages_ahead.FindPassage(id);
   out_.passages[id].key = {};

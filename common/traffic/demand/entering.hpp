@@ -63,7 +63,9 @@ class Entering {
   };
   Entering(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Where it enters on this trip: by lot.
   std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
+  // The speed from which it can stop before the first zones that are not its own.
   double AtMostForLine(std::uint32_t id);
   // A vehicle at the end of its last lane leaves the road.
   void Leave(std::uint32_t id);

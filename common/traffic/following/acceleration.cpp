@@ -53,7 +53,6 @@ double Acceleration::SeekingSpeed(std::uint32_t id, double planned_mps) const {
   return in_.lanes_beside.ChangesSlowly(id) ? std::min(speed, kTightSeeking_mps) : speed;
 }
 
-// The least of the plan, the leader, and the line before zones that are not its own.
 double Acceleration::Wanted(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const AgentTraits& traits = in_.traits[id];

@@ -46,7 +46,16 @@ class Acceleration {
   };
   Acceleration(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // The least of the plan, the leader, and the line before zones that are not its own.
   double Wanted(std::uint32_t id) const;
+  // By no more than the planned jerk, so that it also comes to rest without one. In an emergency by the emergency's: it
+  // would have to brake harder than is comfortable, and sooner than it can so; or as hard as it may, but not for
+  // traffic that drives away from it; or it has come to brake harder than it could let go of so. What a scenario
+  // commands is done exactly. A car with full physics may brake a little harder than it is asked to, and so be slower
+  // than the deceleration that it has come to would be let go of from: that is let go of by the planned jerk all the
+  // same, as long as what is left of it is taken by the foot that ends the stop. Nor are the last centimetres before a
+  // line, which ask for as much as one likes, an emergency for it: it comes to stand a hand's breadth behind; before a
+  // vehicle they are.
   double Smoothed(std::uint32_t id, double wanted_mps2, double dt_s);
 
  private:

@@ -23,8 +23,6 @@ double Needed_mps2(double v, double way_m, double jerk_mps3) {
 
 }  // namespace
 
-// The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable
-// from where it must.
 double CarFollowing::StopAt(std::uint32_t id, double odometer_m, double share) const {
   const double v = in_.agents[id].speed_mps, b = share * in_.traits[id].idm.braking_mps2;
   const double gap = odometer_m - in_.agents[id].o_m - 0.5 * in_.traits[id].length_m;
@@ -42,7 +40,6 @@ double CarFollowing::Following(std::uint32_t id, double limit_mps, bool any, dou
                                              : driver::IdmFreeAcceleration(idm, v, limit_mps);
 }
 
-// What a follower does behind a leader.
 double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const {
   if (!behind.any) return 0.0;
   const double d = std::max(0.0, behind.d_m);
@@ -55,8 +52,6 @@ double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m
              : driver::IdmFreeAcceleration(in_.settings.idm, behind.speed_mps, limit);
 }
 
-// The acceleration with which it follows another agent that has come in, or comes in, before it: by what that one's
-// driver wants, since what that car does in a change of gears is over at once.
 double CarFollowing::FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const {
   const Agent& other = in_.agents[leader];
   return driver::AccAcceleration(in_.traits[id].idm, in_.agents[id].speed_mps, in_.limits.Desired_mps(id), gap_m,

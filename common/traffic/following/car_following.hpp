@@ -22,9 +22,14 @@ class CarFollowing {
   };
   explicit CarFollowing(const Reads& reads) : in_(reads) {}
 
+  // The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable
+  // from where it must.
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
+  // What a follower does behind a leader.
   double FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const;
+  // The acceleration with which it follows another agent that has come in, or comes in, before it: by what that one's
+  // driver wants, since what that car does in a change of gears is over at once.
   double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
 
  private:

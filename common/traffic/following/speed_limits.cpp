@@ -14,8 +14,6 @@ constexpr double kAbove = 1.0 + 1e-9;  // than any rounding of a square
 
 }  // namespace
 
-// The plan of the track at a place of its way, and what the beginnings of those beyond leave, braked for as the plans
-// are.
 driver::SpeedPlan::Allowed SpeedLimits::Allowed(std::uint32_t id, double odometer_m) const {
   driver::SpeedPlan::Allowed allowed{1e3, 0.0};
   for (const RouteSegment& stretch : in_.stretches[id]) {
@@ -46,7 +44,6 @@ double SpeedLimits::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m)
   return std::min(LimitOn(track, d_m) * in_.traits[id].speed_factor, Cap_mps(in_.agents[id], in_.traits[id]));
 }
 
-// By the limit where it is: the speed without any vehicle and any bend.
 double SpeedLimits::Desired_mps(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   for (const RouteSegment& stretch : in_.stretches[id]) {

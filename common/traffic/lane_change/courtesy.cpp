@@ -15,8 +15,6 @@ constexpr double kQueued_mps = 1.0, kQueued_m = 12.0;  // a vehicle so slow and 
 
 }  // namespace
 
-// The next one on a lane beside that finds no gap, is nearer than the leader and must come over to this lane, is let
-// in: followed by braking gently. Those that stand behind others are passed.
 double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];

@@ -49,11 +49,15 @@ class LaneChanges {
 
   // `even_slowly`: also at a walking pace, where it has another reason.
   bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns, bool even_slowly = false) const;
+  // Whether it must change lanes for its route where only slow vehicles can.
   bool NeedsSlowChange(std::uint32_t id) const;
+  // Whether it is to go round a vehicle that stands before it.
   bool GoesRound(std::uint32_t id) const;
   bool MayLeaveLane(std::uint32_t id, bool even_slowly = false) const;
   // Changes to the lane beside.
   void ChangeLanes(std::int64_t step_ns);
+  // The next one on a lane beside that finds no gap, is nearer than the leader and must come over to this lane, is let
+  // in: followed by braking gently. Those that stand behind others are passed.
   double WantedCourteous(std::uint32_t id, double limit_mps) const;
 
  private:

@@ -93,8 +93,6 @@ bool LaneWays::ChangesSlowly(std::uint32_t id) const {
              kTightestLaneChange_1pm;
 }
 
-// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
-// on foot, easy to drive, and it goes on.
 bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m, double tightest_1pm) const {
   const RouteSegment* before = nullptr;
   for (const RouteSegment& stretch : in_.stretches[id]) {
@@ -123,8 +121,6 @@ bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m, double tigh
   return in_.stretches[id].back().end_m >= to_m;
 }
 
-// Whether nothing on its way between two odometers may make it stop: no conflict zone, no line, no crossing for people
-// on foot. Beyond the end of its way nothing does.
 bool LaneWays::IsFree(std::uint32_t id, double from_m, double to_m) const {
   for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
@@ -142,7 +138,6 @@ bool LaneWays::IsFree(std::uint32_t id, double from_m, double to_m) const {
   return in_.stretches[id].back().end_m >= to_m || !in_.stretches[id].back().goes_on;
 }
 
-// Whether the marks let it over to that side all the way.
 bool LaneWays::MayCross(std::uint32_t id, int side, double from_m, double to_m) const {
   for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
@@ -155,8 +150,6 @@ bool LaneWays::MayCross(std::uint32_t id, int side, double from_m, double to_m) 
   return true;
 }
 
-// Where the last track ends on which it can still get over to the lane that its route goes on from; far away where that
-// is not in sight, or no change is needed.
 double LaneWays::RouteEnds(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const Route* route = RouteOf(in_.map, agent);
@@ -174,7 +167,6 @@ double LaneWays::RouteEnds(std::uint32_t id) const {
   return kNoBarrier_m;
 }
 
-// By how many changes of lanes less it comes to its route's end from the lane beside than from its own.
 int LaneWays::FewerChanges(std::uint32_t id, std::uint32_t track) const {
   const Agent& agent = in_.agents[id];
   const Route* route = RouteOf(in_.map, agent);
@@ -185,7 +177,6 @@ int LaneWays::FewerChanges(std::uint32_t id, std::uint32_t track) const {
   return route->Changes(agent.leg, own) - route->Changes(leg, track);
 }
 
-// The blunt end of its lane that its way leads to, for a vehicle that has to go on by the lane beside.
 std::optional<EndingLane> LaneWays::EndAhead(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const Route* route = RouteOf(in_.map, agent);
@@ -293,7 +284,6 @@ bool LaneWays::IsKept(std::uint32_t id, const RouteSegments& left, double to_m) 
   return is_kept;
 }
 
-// Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.
 double LaneWays::LaneEnds(std::uint32_t id) const {
   const auto& stretches = in_.stretches[id];
   const double parts = RouteEnds(id);

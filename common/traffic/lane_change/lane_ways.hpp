@@ -42,10 +42,15 @@ class LaneWays {
   // `ends_m`: odometer at which the change must have ended; it is more abrupt then. `tight_m`: the same of one that may
   // be as short as a slow vehicle can drive.
   std::optional<Piece> PieceBeside(std::uint32_t id, int side, double ends_m, double tight_m = kNoBarrier_m) const;
+  // Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
+  // on foot, easy to drive, and it goes on.
   bool IsPlain(std::uint32_t id, double from_m, double to_m, double tightest_1pm = kTightestLaneChange_1pm) const;
   // Whether its way is so short or bent here that only slow vehicles change lanes.
   bool ChangesSlowly(std::uint32_t id) const;
+  // Whether nothing on its way between two odometers may make it stop: no conflict zone, no line, no crossing for
+  // people on foot. Beyond the end of its way nothing does.
   bool IsFree(std::uint32_t id, double from_m, double to_m) const;
+  // The blunt end of its lane that its way leads to, for a vehicle that has to go on by the lane beside.
   std::optional<EndingLane> EndAhead(std::uint32_t id) const;
   // Odometer.
   std::optional<double> WaitsBeside_m(std::uint32_t id) const;
@@ -61,9 +66,14 @@ class LaneWays {
   double Blocked_m(std::uint32_t id) const;
   // Whether such a vehicle on the lane that it leaves, at most so far ahead, would stop the lane change that it is in.
   bool IsKept(std::uint32_t id, const RouteSegments& left, double to_m) const;
+  // Whether the marks let it over to that side all the way.
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
+  // Where the last track ends on which it can still get over to the lane that its route goes on from; far away where
+  // that is not in sight, or no change is needed.
   double RouteEnds(std::uint32_t id) const;
+  // By how many changes of lanes less it comes to its route's end from the lane beside than from its own.
   int FewerChanges(std::uint32_t id, std::uint32_t track) const;
+  // Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.
   double LaneEnds(std::uint32_t id) const;
 
  private:

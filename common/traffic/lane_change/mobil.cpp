@@ -127,12 +127,10 @@ bool LaneChanges::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns, bool eve
          MayLeaveLane(id, even_slowly);
 }
 
-// Whether it must change lanes for its route where only slow vehicles can.
 bool LaneChanges::NeedsSlowChange(std::uint32_t id) const {
   return in_.lanes_beside.ChangesSlowly(id) && in_.lanes_beside.RouteEnds(id) < kNoBarrier_m;
 }
 
-// Whether it is to go round a vehicle that stands before it.
 bool LaneChanges::GoesRound(std::uint32_t id) const { return in_.lanes_beside.GoesRound_m(id).has_value(); }
 
 bool LaneChanges::MayLeaveLane(std::uint32_t id, bool even_slowly) const {

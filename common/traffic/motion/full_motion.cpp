@@ -19,7 +19,6 @@ double HeadingChange_rad(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
 
 }  // namespace
 
-// A vehicle that cannot stand where it was to begin waits to enter.
 void FullMotion::StartFull(std::shared_ptr<ground::Ground> ground) {
   out_.full.emplace(std::move(ground), out_.agents.size());
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
@@ -31,7 +30,6 @@ void FullMotion::StartFull(std::shared_ptr<ground::Ground> ground) {
   }
 }
 
-// With its axles' middles over the path, rolling along it.
 base::Status FullMotion::PlaceFull(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   const Eigen::Vector3d front = in_.tracks.FrameOf(id, agent.o_m + HalfBase(in_.traits[id])).p_W,
@@ -65,7 +63,6 @@ void FullMotion::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) {
   agent.wish_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
 }
 
-// Where its path has brought it, after the physics' step.
 void FullMotion::FollowFull(std::uint32_t id, double dt_s) {
   Agent& agent = out_.agents[id];
   const double before = agent.speed_mps;

@@ -30,9 +30,12 @@ class FullMotion {
   };
   FullMotion(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // A vehicle that cannot stand where it was to begin waits to enter.
   void StartFull(std::shared_ptr<ground::Ground> ground);
+  // With its axles' middles over the path, rolling along it.
   base::Status PlaceFull(std::uint32_t id);
   void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);
+  // Where its path has brought it, after the physics' step.
   void FollowFull(std::uint32_t id, double dt_s);
 
  private:

@@ -6,8 +6,6 @@
 
 namespace rodeira::traffic {
 
-// The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has
-// missed.
 std::uint32_t Paths::Follow(std::uint32_t id) {
   std::uint32_t missed = 0;
   Agent& agent = out_.agents[id];

@@ -25,6 +25,8 @@ class Paths {
   };
   Paths(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has
+  // missed.
   std::uint32_t Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
 

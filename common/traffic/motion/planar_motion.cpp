@@ -64,7 +64,6 @@ double PlanarMotion::Moved(std::uint32_t id, double travel_m) const {
   return odometer;
 }
 
-// The pedals for the acceleration, and what they give, held over the step; a car that comes to rest stays at rest.
 void PlanarMotion::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s) {
   Agent& agent = out_.agents[id];
   const double before = agent.speed_mps;

@@ -41,7 +41,6 @@ double GradeOf(const Eigen::Quaterniond& q_WB) {
   return ahead_W.z() / std::max(1e-3, std::hypot(ahead_W.x(), ahead_W.y()));
 }
 
-// The axles' middles stand on the path, on the road's surface; the lean across is that of the surface.
 AgentPose Poses::PoseOf(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];

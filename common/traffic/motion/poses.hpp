@@ -35,6 +35,7 @@ class Poses {
   };
   Poses(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // The axles' middles stand on the path, on the road's surface; the lean across is that of the surface.
   AgentPose PoseOf(std::uint32_t id) const;
   AgentPose PoseOfCrashed(std::uint32_t id) const;
   void FindPoses();

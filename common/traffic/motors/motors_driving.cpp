@@ -40,8 +40,6 @@ void MotorsDriving::StartMotors() {
   out_.segments.resize(in_.agents.size());
 }
 
-// The mean of both borders with the driver's weight. The first control point of its curve is moved: the others lie as
-// they are.
 Vector2d MotorsDriving::MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const {
   const lanes::Curve& curve = in_.map.graph[driver.track].curve;
   const double d = std::min(index * kCheckpoint_m, curve.length_m()), left = 1.0 - d / curve.length_m();
@@ -120,8 +118,6 @@ double MotorsDriving::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) c
              : AngleBetween((out_.full->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
 }
 
-// A vehicle stops if its look-ahead crosses that of one on its right (left-hand traffic: on its left). Two seconds of
-// way, to the lane's end.
 void MotorsDriving::GiveWay() {
   EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {
     FollowTrajectory(id);

@@ -35,12 +35,16 @@ class MotorsDriving {
 
   // MOTORS' driver.
   void StartMotors();
+  // The mean of both borders with the driver's weight. The first control point of its curve is moved: the others lie as
+  // they are.
   Eigen::Vector2d MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const;
   std::uint32_t MotorsPoints(const MotorsDriver& driver) const;
   // The point that the driver looks to, two seconds of way on and not beyond the lane's end, and its angle from where
   // the car points.
   Eigen::Vector2d MotorsLooksAt(std::uint32_t id) const;
   double MotorsTurn_rad(std::uint32_t id, const Eigen::Vector2d& look_W) const;
+  // A vehicle stops if its look-ahead crosses that of one on its right (left-hand traffic: on its left). Two seconds of
+  // way, to the lane's end.
   void GiveWay();
   void DriveMotors(std::uint32_t id, double dt_s);
 

@@ -19,8 +19,6 @@ constexpr double kStops_mps2 = 3.0;
 
 }  // namespace
 
-// Along its way, as far as it sees: what comes, or could come from where it sees no further, or where vehicles begin
-// their way.
 Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
   const double half = 0.5 * in_.traits[id].length_m, front = in_.agents[id].o_m + half,
                rear = in_.agents[id].o_m - half;
@@ -69,8 +67,6 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
   return found;
 }
 
-// Oncoming traffic goes on as long as an overtaker will be back in time by what it does; else it
-// stops where both can stop.
 double OncomingLane::WantedForOvertaker(std::uint32_t id, double limit_mps) const {
   const Agent& agent = in_.agents[id];
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m, v = agent.speed_mps;

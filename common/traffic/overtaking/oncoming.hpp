@@ -30,7 +30,11 @@ class OncomingLane {
   };
   explicit OncomingLane(const Reads& reads) : in_(reads) {}
 
+  // Along its way, as far as it sees: what comes, or could come from where it sees no further, or where vehicles begin
+  // their way.
   Oncoming FindOncoming(std::uint32_t id) const;
+  // Oncoming traffic goes on as long as an overtaker will be back in time by what it does; else it stops where both can
+  // stop.
   double WantedForOvertaker(std::uint32_t id, double limit_mps) const;
 
  private:

@@ -95,7 +95,6 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   if (way.gives_up) way.to_m = front + far, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : time;
 }
 
-// One that falls back brakes as long as it is beside that one, and the one passed does not go faster.
 double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const {
   const Agent& agent = out_.agents[id];
   if (in_.is_overtaken[id] != 0 && agent.speed_mps > kMinPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);

@@ -39,6 +39,7 @@ class OvertakingDrive {
   };
   OvertakingDrive(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // One that falls back brakes as long as it is beside that one, and the one passed does not go faster.
   double WantedBeside(std::uint32_t id, double wanted_mps2) const;
   // Overtaking on the lane of oncoming traffic.
   void Overtake(std::int64_t step_ns);

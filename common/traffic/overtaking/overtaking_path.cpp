@@ -20,7 +20,6 @@ constexpr double kUneven_m = 0.25;                  // of the other lane's middl
 
 }  // namespace
 
-// The least that it may, and wants to, drive between two odometers.
 double OvertakingStart::TopSpeed(std::uint32_t id, double from_m, double to_m) const {
   double top = Cap_mps(out_.agents[id], in_.traits[id]);
   for (double at = from_m; at < to_m + kOvertakingSamplingStep_m; at += kOvertakingSamplingStep_m)
@@ -49,7 +48,6 @@ std::optional<Piece> OvertakingStart::PieceOut(std::uint32_t id, double top_mps)
   return piece;
 }
 
-// What is still to be done from now on behind, or beside, the one passed.
 PassCase OvertakingStart::CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m,
                                  double to_m) const {
   const Agent& agent = out_.agents[id];

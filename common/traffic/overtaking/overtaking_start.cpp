@@ -38,7 +38,6 @@ double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kG
 
 }  // namespace
 
-// While it overtakes it is in more of a hurry, and comes nearer to its leader.
 driver::IdmSettings OvertakingStart::IdmOf(std::uint32_t id) const {
   driver::IdmSettings idm = in_.traits[id].idm;
   const Overtaking& way = out_.agents[id].overtaking;

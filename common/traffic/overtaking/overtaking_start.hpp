@@ -45,12 +45,15 @@ class OvertakingStart {
   };
   OvertakingStart(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // While it overtakes it is in more of a hurry, and comes nearer to its leader.
   driver::IdmSettings IdmOf(std::uint32_t id) const;
   void ThinkOfOvertaking(std::uint32_t id);
   // The odometer where a vehicle that is no agent stands before it, far from a junction, if it may be passed on the
   // lane of oncoming traffic.
   std::optional<double> PassesStanding_m(std::uint32_t id) const;
+  // The least that it may, and wants to, drive between two odometers.
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
+  // What is still to be done from now on behind, or beside, the one passed.
   PassCase CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m, double to_m) const;
 
  private:

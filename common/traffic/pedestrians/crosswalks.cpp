@@ -167,8 +167,6 @@ void Crosswalks::LookAtPeople(double dt_s) {
   Yield(dt_s);
 }
 
-// The speed from which an entering car can stop before the first crossing at which a pedestrian walks or waits; below 0
-// where it would stand on one.
 double Crosswalks::AtMostForPeople(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m, rear = front - in_.traits[id].length_m;

@@ -43,7 +43,6 @@ bool CurrentTracks::HasBeside(std::uint32_t id, std::uint32_t track) const {
   return in_.map.graph[track].left || in_.map.graph[track].right;
 }
 
-// The straight on which all of it is, beside no line; null where there is none, or where its surface twists.
 const lanes::Curve::Straight* CurrentTracks::StraightBelow(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const Piece& piece = agent.path.front();

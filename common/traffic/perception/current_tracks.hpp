@@ -25,6 +25,7 @@ class CurrentTracks {
   void LookBelow(std::uint32_t id);
   PathFrame FrameOf(std::uint32_t id, double odometer_m) const;
   bool HasBeside(std::uint32_t id, std::uint32_t track) const;
+  // The straight on which all of it is, beside no line; null where there is none, or where its surface twists.
   const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;
 
  private:

@@ -10,7 +10,6 @@
 
 namespace rodeira::traffic {
 
-// The follower of a rectangle with its middle and rear there on a track: on it, or on those that lead to it.
 Follower Neighbours::FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
   Follower behind;
   bool here = false;  // one farther back on the same branch is no follower
@@ -51,7 +50,6 @@ Follower Neighbours::FindFollower(std::uint32_t id, std::uint32_t track, double 
   return behind;
 }
 
-// Where the one is that it passes, from its front bumper on: behind it, below 0.
 std::optional<Leader> Neighbours::FindOvertaken(std::uint32_t id) const {
   const Overtaking& way = in_.agents[id].overtaking;
   const double front = in_.agents[id].o_m + 0.5 * in_.traits[id].length_m;

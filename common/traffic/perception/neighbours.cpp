@@ -19,8 +19,6 @@ constexpr double kAnySpeed_mps = 1e3;
 
 }  // namespace
 
-// The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into
-// it.
 std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const RouteSegment& stretch,
                                                   double odometer_m) const {
   const Agent& agent = in_.agents[id];
@@ -142,7 +140,6 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
   return apart.any && (!ahead.any || apart_lets < lets(ahead)) ? apart : ahead;
 }
 
-// Those on which a vehicle may be.
 std::span<const lanes::DivergeZone> Neighbours::DivergeZonesOf(std::uint32_t track) const {
   return in_.parts[track] != 0 ? in_.map.zones.DivergeZonesOf(track) : std::span<const lanes::DivergeZone>();
 }

@@ -33,11 +33,16 @@ class Neighbours {
   };
   explicit Neighbours(const Reads& reads) : in_(reads) {}
 
+  // The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into
+  // it.
   std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const RouteSegment& stretch, double odometer_m) const;
   // The leader, with the gap to it: the next vehicle on the agent's way.
   Leader FindLeader(std::uint32_t id) const;
+  // Those on which a vehicle may be.
   std::span<const lanes::DivergeZone> DivergeZonesOf(std::uint32_t track) const;
+  // The follower of a rectangle with its middle and rear there on a track: on it, or on those that lead to it.
   Follower FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
+  // Where the one is that it passes, from its front bumper on: behind it, below 0.
   std::optional<Leader> FindOvertaken(std::uint32_t id) const;
 
  private:

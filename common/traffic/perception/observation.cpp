@@ -66,7 +66,6 @@ void Observation::ShowOnLaneLeft(std::uint32_t id) {
   }
 }
 
-// It is seen on the lane of oncoming traffic, and the one passed keeps its speed.
 void Observation::ShowToOncoming(std::uint32_t id) {
   const Agent& agent = in_.agents[id];
   const Overtaking& way = agent.overtaking;

@@ -48,6 +48,7 @@ class Observation {
   };
   Observation(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // It is seen on the lane of oncoming traffic, and the one passed keeps its speed.
   void ShowToOncoming(std::uint32_t id);
   void Part(std::uint32_t track);
   // Sight: which vehicle is where.

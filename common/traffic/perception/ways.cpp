@@ -55,13 +55,11 @@ RouteSegment Ways::SegmentOn(std::uint32_t track, double zero_m, double begin_m,
           plan.plan.At(begin_m - zero_m).speed_mps};
 }
 
-// Whether its stretches go as far as that, or to the end of its way.
 bool Ways::SeesTo(std::uint32_t id, double odometer_m) const {
   const RouteSegment& last = out_.stretches[id].back();
   return last.end_m >= odometer_m || !last.goes_on;
 }
 
-// From the piece under the rear bumper to `range` beyond the front one.
 void Ways::FindRouteSegments(std::uint32_t id, double range_m) {
   const Agent& agent = in_.agents[id];
   auto& stretches = out_.stretches[id];

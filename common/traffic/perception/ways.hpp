@@ -28,7 +28,9 @@ class Ways {
   Ways(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   double SightOf(const Agent& agent) const;
+  // Whether its stretches go as far as that, or to the end of its way.
   bool SeesTo(std::uint32_t id, double odometer_m) const;
+  // From the piece under the rear bumper to `range` beyond the front one.
   void FindRouteSegments(std::uint32_t id, double range_m);
 
  private:

@@ -36,7 +36,6 @@ void Claims::FetchZones(std::size_t id) const {
   }
 }
 
-// Its own are the zones that are granted to it and those that it stands in.
 void Claims::HoldZones(std::uint32_t id) {
   const Agent& agent = out_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
@@ -53,7 +52,6 @@ void Claims::HoldZones(std::uint32_t id) {
   }
 }
 
-// The sides of zones that matter to agents that may get a reservation now.
 void Claims::AskForZones() {
   for (const std::uint32_t side : out_.asked_sides) out_.is_asked[side] = 0;
   out_.asked_sides.clear();
@@ -67,7 +65,6 @@ void Claims::AskForZones() {
   }
 }
 
-// A head that waits to be granted its zones comes to them; without a query it is not told.
 void Claims::ComeToZones(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
   if (out_.agents[id].brake_mps2 > 0.0 || passage.red || passage.barred ||
@@ -86,14 +83,12 @@ void Claims::ComeToZones(std::uint32_t id) {
   }
 }
 
-// Its front at the zone's beginning.
 double Claims::ArrivesAt(const ApproachingVehicle& comer) const {
   if (comer.id >= out_.agents.size()) return comer.arrives_s;
   return ComesWithin(comer, comer.in_m - FrontOf(out_.agents[comer.id], in_.traits[comer.id])) +
          out_.passages[comer.id].later_s;
 }
 
-// Its rear at the zone's end.
 double Claims::ClearsAt(const ApproachingVehicle& comer) const {
   if (comer.id >= out_.agents.size()) return comer.clears_s;
   return ComesWithin(comer, comer.out_m - (FrontOf(out_.agents[comer.id], in_.traits[comer.id]) -
@@ -108,8 +103,6 @@ double Claims::ComesWithin(const ApproachingVehicle& comer, double way_m) const 
                     {agent.wish_mps2, in_.settings.smooth.planned_mps3});
 }
 
-// Where two ways merge, whether the approaching one, surely behind it, need not brake much for it to stay there until
-// it is out of the zone.
 bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
                          double clears_s) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge ||
@@ -125,13 +118,11 @@ bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Appro
   return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
-// One that was just refused does not come before the vehicle that keeps it out is gone.
 void Claims::ComeLater(std::uint32_t id) {
   ConflictPassage& passage = out_.passages[id];
   passage.later_s = std::max(0.0, passage.delay_s);
 }
 
-// Vehicles that are no agents.
 void Claims::OthersAtZones() {
   if (!in_.any_block) return;
   const auto nobody = static_cast<std::uint32_t>(out_.agents.size());
@@ -176,8 +167,6 @@ void Claims::OthersAtZones() {
   }
 }
 
-// The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where
-// another one holds any of them.
 bool Claims::TakeFirstZones(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   const double stand = in_.traits[id].length_m + kEntryStandingMargin_m;

@@ -43,15 +43,26 @@ class Claims {
   Claims(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   void FetchZones(std::size_t id) const;
+  // Its own are the zones that are granted to it and those that it stands in.
   void HoldZones(std::uint32_t id);
+  // The sides of zones that matter to agents that may get a reservation now.
   void AskForZones();
+  // A head that waits to be granted its zones comes to them; without a query it is not told.
   void ComeToZones(std::uint32_t id);
+  // Its front at the zone's beginning.
   double ArrivesAt(const ApproachingVehicle& comer) const;
+  // Its rear at the zone's end.
   double ClearsAt(const ApproachingVehicle& comer) const;
+  // Where two ways merge, whether the approaching one, surely behind it, need not brake much for it to stay there until
+  // it is out of the zone.
   bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
                    double clears_s) const;
+  // One that was just refused does not come before the vehicle that keeps it out is gone.
   void ComeLater(std::uint32_t id);
+  // Vehicles that are no agents.
   void OthersAtZones();
+  // The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where
+  // another one holds any of them.
   bool TakeFirstZones(std::uint32_t id);
 
  private:

@@ -48,7 +48,6 @@ bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Reserv
   return out_.room.LeavesInTime(id, holder.id, passage.room_m - crossing.out_m + holder.out_m - its_rear);
 }
 
-// Whether the holder of the zone takes up the same room behind it, and does not go round there.
 bool Grants::TakesRoom(const Crossing& crossing) const {
   const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(crossing.zone)];
   return zone.kind == lanes::ZoneKind::kMerge && in_.map.plans[zone.track[0]].turn != kRing &&
@@ -136,8 +135,6 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   return false;
 }
 
-// Grants the passage unless a vehicle is in its way: holds one of the zones or, where the agent has to yield, comes to
-// one or has waited longer.
 bool Grants::Grant(std::uint32_t id, bool yields) {
   ConflictPassage& passage = out_.passages[id];
   if (IsHeld(id, yields)) return false;
@@ -150,7 +147,6 @@ bool Grants::Grant(std::uint32_t id, bool yields) {
   return true;
 }
 
-// Grants the zones before those of oncoming traffic that it has to yield to, for it to wait there.
 bool Grants::GrantToWait(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
   const WaitingPlace& place = passage.place;

@@ -42,9 +42,13 @@ class Grants {
   Grants(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   bool Urgent(std::uint32_t id) const;
+  // Whether the holder of the zone takes up the same room behind it, and does not go round there.
   bool TakesRoom(const Crossing& crossing) const;
   bool IsHeld(std::uint32_t id, bool heeded = false);
+  // Grants the passage unless a vehicle is in its way: holds one of the zones or, where the agent has to yield, comes
+  // to one or has waited longer.
   bool Grant(std::uint32_t id, bool yields);
+  // Grants the zones before those of oncoming traffic that it has to yield to, for it to wait there.
   bool GrantToWait(std::uint32_t id);
 
  private:

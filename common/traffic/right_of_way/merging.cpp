@@ -26,15 +26,11 @@ double StopsBefore_m(const Agent& agent) {
 
 }  // namespace
 
-// From its front to the rear of the one that goes before it through a zone in which their ways come together, both by
-// their way to its end.
 double Merging::MergingGap(std::uint32_t id, double out_m, const Reservation& before) const {
   const double to_end = out_m - out_.agents[id].o_m - 0.5 * in_.traits[id].length_m;
   return to_end - (before.out_m - out_.agents[before.id].o_m + 0.5 * in_.traits[before.id].length_m);
 }
 
-// Where two ways merge it may come behind the one nearer to the end of the zone, as behind a leader, if it need not
-// brake much for that.
 bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return false;
   const double gap = MergingGap(id, crossing.out_m, holder);
@@ -58,7 +54,6 @@ void Merging::EachLeaves(std::uint32_t id, const Tell& tell) const {
   });
 }
 
-// What those that hold its zones before it leave it.
 void Merging::YieldInZones(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   double& leaves = out_.leaves[id] = kUnhindered_mps2;
@@ -76,8 +71,6 @@ void Merging::YieldInZones(std::uint32_t id) {
     agent.eased_for = eased_for;
 }
 
-// The one that holds its zones before it and keeps it where it stands; of several the one that lets it drive on least;
-// below 0: none does.
 std::int64_t Merging::KeptInZonesBy(std::uint32_t id) const {
   std::int64_t keeps = -1;
   double least = in_.full ? driver::Pedals::kGoes_mps2 : kLeast_mps2;

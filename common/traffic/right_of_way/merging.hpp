@@ -38,9 +38,16 @@ class Merging {
   };
   Merging(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // From its front to the rear of the one that goes before it through a zone in which their ways come together, both by
+  // their way to its end.
   double MergingGap(std::uint32_t id, double out_m, const Reservation& before) const;
+  // Where two ways merge it may come behind the one nearer to the end of the zone, as behind a leader, if it need not
+  // brake much for that.
   bool MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const;
+  // What those that hold its zones before it leave it.
   void YieldInZones(std::uint32_t id);
+  // The one that holds its zones before it and keeps it where it stands; of several the one that lets it drive on
+  // least; below 0: none does.
   std::int64_t KeptInZonesBy(std::uint32_t id) const;
   // Those that hold its zones before it, and which: tell(holder, in_m, out_m, whether ways merge there), in its own
   // odometer.

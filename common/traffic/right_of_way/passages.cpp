@@ -48,8 +48,6 @@ bool Passages::KeepPassage(std::uint32_t id) {
   return true;
 }
 
-// One that must know now looks on to where it would stand, however slowly it drives: where zones are longer than it
-// sees, the next ones may begin where those end, and one with the first ones alone would stand in them.
 void Passages::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
   const ConflictPassage& passage = out_.passages[id];
@@ -131,7 +129,6 @@ void Passages::FindCrossings(std::uint32_t id) {
   passage.room_m = passage.end_m + in_.traits[id].length_m + in_.settings.idm.standing_gap_m + kLoose_m;
 }
 
-// Its grants and its next passage, and whether it has come to rest at a STOP line or waits for others.
 void Passages::ComeToLine(std::uint32_t id, double dt_s) {
   Agent& agent = out_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m;

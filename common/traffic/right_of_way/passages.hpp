@@ -37,7 +37,10 @@ class Passages {
   Passages(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);
+  // One that must know now looks on to where it would stand, however slowly it drives: where zones are longer than it
+  // sees, the next ones may begin where those end, and one with the first ones alone would stand in them.
   void FindPassage(std::uint32_t id);
+  // Its grants and its next passage, and whether it has come to rest at a STOP line or waits for others.
   void ComeToLine(std::uint32_t id, double dt_s);
 
  private:

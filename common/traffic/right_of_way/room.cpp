@@ -74,10 +74,6 @@ void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell)
   }
 }
 
-// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but
-// for the hand's breadth before it at which it may come to rest), behind the vehicles before it as far as those come,
-// and as far as the holders of its own zones before it let it. One that is told to brake, and one that is no agent, may
-// stop at once. In a ring of followers the one that closes it counts as standing.
 double Room::ReachOf(std::uint32_t id, int depth) {
   if (out_.reaches[id] >= 0.0) return out_.reaches[id];
   const Agent& agent = in_.agents[id];
@@ -116,9 +112,6 @@ double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
   return to_m;
 }
 
-// Whether a vehicle has gone so far before this one has long been waiting at the end of its zones. One that stands
-// starts so long after all that stand in a row before it; one that drives up to such a row comes as far as its end
-// before.
 bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
   double comes = 0.0, starts = 0.0;
   std::uint32_t at = other;
@@ -169,8 +162,6 @@ void Room::FindRoom(std::uint32_t id) {
   });
 }
 
-// Whether it can stand past the light, behind those that wait there for oncoming traffic, and whether there is room
-// behind the zones for all of them.
 bool Room::RoomToWait(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
   const double apart = in_.traits[id].idm.standing_gap_m + kShort_m;
@@ -193,8 +184,6 @@ bool Room::RoomAhead(std::uint32_t id) const {
                  : in_.ahead[id].gap_m > kMinGapAhead_m;
 }
 
-// What others, and it, must know of a vehicle that may come to its zones soon: when, and whether there is room behind
-// them.
 void Room::TellComing(std::uint32_t id) {
   ConflictPassage& passage = out_.passages[id];
   const double in = passage.crossings.front().in_m, most = out_.passages_ahead.KnowAllowedAt(id, in, 0);

@@ -39,8 +39,6 @@ void Signals::FindColours() {
   }
 }
 
-// The first line of a track beyond a place with a light that is not green, if a car from there with this speed can stop
-// before it; far away where there is none.
 double Signals::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
   for (const StopLine& line : in_.map.plans[track].lines) {
     if (line.light >= 0 && !IsGreen(line.light) && speed_mps * speed_mps <= 2.0 * kOthers_mps2 * (line.d_m - from_m))
@@ -63,8 +61,6 @@ bool Signals::AllGreen(std::uint32_t id, double from_m, double to_m) const {
   return true;
 }
 
-// One with a grant past a light that is green no more, and that can stop before it, gives it back. It stands where
-// it would have waited: no holder of a zone of that way counts on it.
 void Signals::ObeyLights(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return;

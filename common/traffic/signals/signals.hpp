@@ -41,7 +41,11 @@ class Signals {
     return in_.holds.At(static_cast<std::uint32_t>(light), *in_.map.network->controllers()[index].times, time_ns);
   }
   void FindColours();
+  // The first line of a track beyond a place with a light that is not green, if a car from there with this speed can
+  // stop before it; far away where there is none.
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
+  // One with a grant past a light that is green no more, and that can stop before it, gives it back. It stands where it
+  // would have waited: no holder of a zone of that way counts on it.
   void ObeyLights(std::uint32_t id);
 
  private:

@@ -45,6 +45,7 @@ struct BicycleSettings {
   VehicleDimensions dimensions;
 };
 
+// Problems stay in the file's collection: the caller asks File::Finish.
 BicycleSettings ReadBicycle(const config::Map& root);
 
 // The car as its controllers know it.

@@ -21,7 +21,6 @@ Eigen::Vector3d HubAtRest_B(const BicycleSettings& car, std::size_t wheel) {
           car.wheel.radius_m - sunk};
 }
 
-// The wheels' masses and inertias are taken from those of the whole car.
 OdeChassis ChassisOf(const OdeSettings& settings) {
   const BodySettings& body = settings.car.body;
   const Eigen::Vector3d p_BT_B(0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0,

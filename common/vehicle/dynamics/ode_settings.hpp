@@ -28,6 +28,7 @@ struct OdeChassis {
   Eigen::Vector3d p_BG_B = Eigen::Vector3d::Zero();
   Eigen::Vector3d inertia_kgm2 = Eigen::Vector3d::Zero();
 };
+// The wheels' masses and inertias are taken from those of the whole car.
 OdeChassis ChassisOf(const OdeSettings& settings);
 // Centre of a wheel in B where the car rests on level ground.
 Eigen::Vector3d HubAtRest_B(const BicycleSettings& car, std::size_t wheel);

@@ -37,8 +37,10 @@ std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles);
 
 // Of the formula, of the slip curve or of the other model, as in magic_formula.hpp.
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction);
+// Slopes of the pure forces at zero slip, N: dFx/dkappa and -dFy/dtan(alpha).
 double LongitudinalStiffness(const TyreSettings& tyre, double load_N);
 double CorneringStiffness(const TyreSettings& tyre, double load_N);
+// The largest pure force, N.
 double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction);
 double LateralPeak(const TyreSettings& tyre, double load_N, double friction);
 // The same forces with the aligning moment of a tyre that rolls forward: by `aligning`, or as side force times
@@ -102,6 +104,7 @@ class Tyre {
   // wheel must move for that.
   TyreMotion SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N,
                               double friction, double camber_rad = 0.0);
+  // Without deflection.
   void Reset() { *this = Tyre(); }
 
   double slip() const { return slip_; }

@@ -34,11 +34,13 @@ class Joysticks {
 
   // Reads all devices, and finds those that were plugged in or out.
   virtual void Update() = 0;
+  // The devices that were there at the last Update.
   virtual std::vector<JoystickInfo> Connected() const = 0;
 
   // Devices to read, by GUID; their readings come in this order. Two of one GUID are taken as they come.
   virtual void Use(const std::vector<std::string>& guids) = 0;
-  // The reading of a place in that list; empty where the device is not there.
+  // The reading of a place in that list, as of the last Update; empty where the device is not there. The reference
+  // holds until the next Update or Use.
   virtual const DeviceReading& reading(std::size_t place) const = 0;
   // As the device calls itself, once it was there.
   virtual const std::string& name(std::size_t place) const = 0;

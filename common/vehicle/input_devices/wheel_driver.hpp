@@ -77,6 +77,7 @@ struct WheelSettings {
 
 // Problems stay in the file's collection.
 WheelSettings ReadWheel(const config::Map& root);
+// Wrong input, with place and reason, where the file is missing or faulty.
 base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path);
 // 32 hexadecimal digits.
 bool IsGuid(std::string_view text);
@@ -100,10 +101,12 @@ class WheelDriver {
 
   // From the readings of all devices, in the settings' order; `engaged` is the gear that is in. Steering is positive to
   // the left, a device's axis to the right.
+  // Returns the car's controls of this step, which controls() says again.
   dynamics::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
   const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
-  // Of the rim itself, from its axis, beyond the car's lock too; nothing before it has moved.
+  // The angle of the rim itself, from its axis, beyond the car's lock too, positive to the left; nothing before it has
+  // moved.
   std::optional<double> rim_rad() const { return rim_rad_; }
   // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals
   // are released.

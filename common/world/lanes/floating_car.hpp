@@ -29,6 +29,7 @@ std::string SumoLaneOf(const Graph& graph, std::uint32_t track);
 inline constexpr std::string_view kFloatingCarsBegin = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fcd-export>\n";
 inline constexpr std::string_view kFloatingCarsEnd = "</fcd-export>\n";
 inline constexpr std::string_view kTimestepEnd = "    </timestep>\n";
+// Append to `text`: the opening tag of a moment, `time_s` after the run's beginning, and one car or pedestrian.
 void AppendTimestepBegin(double time_s, std::string& text);
 void AppendFloatingCar(const FloatingCar& car, std::string& text);
 

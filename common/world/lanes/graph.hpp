@@ -47,8 +47,9 @@ struct NodeKey {
 // The drivable lanes of a network as a directed graph. Lanes of both directions are driven on the side of the road's
 // rule. A lane that narrows to an end beside another one goes on into that one, and one that opens beside another is
 // entered from where that one is. A lane on which the network lets vehicles end goes on into nothing, whatever its file
-// links it to. A two-way turning lane (a lane of both directions beside lanes of one) carries no traffic. Immutable;
-// the network must outlive it.
+// links it to. A two-way turning lane (a lane of both directions beside lanes of one) carries no traffic. Immutable:
+// any number of threads may ask. Distances d run along a track's middle from its beginning, metres. The network must
+// outlive it.
 class Graph {
  public:
   explicit Graph(const network::Network& network);
@@ -56,6 +57,7 @@ class Graph {
   const network::Network& network() const { return *network_; }
   const std::vector<Track>& tracks() const { return tracks_; }
   const Track& operator[](std::uint32_t track) const { return tracks_[track]; }
+  // The lane's track, an index into tracks(); nothing where the lane is not driven on.
   std::optional<std::uint32_t> Find(const network::LaneKey& lane) const;
   // Whether the network says itself where vehicles begin; then those are the entries, all of them and no others.
   bool says_entries() const { return says_entries_; }
@@ -63,20 +65,21 @@ class Graph {
   double SpeedLimit_mps(std::uint32_t track, double d_m) const;
 
   // The distance along a track beside it, of the same lane section or of a road that shares a side, that lies beside
-  // `d_m` of this one; beyond the ends as far as there.
+  // `d_m` of this one, in metres; beyond the ends as far as there. The two must lie beside one another.
   double Across(std::uint32_t track, double d_m, std::uint32_t beside) const;
 
   // The track with traffic that comes towards this one's beside it on the left (in left-hand traffic: on the right).
   std::optional<std::uint32_t> Oncoming(std::uint32_t track) const;
 
-  // Every node within radius of (x, y), by track and node.
+  // Every node within radius of (x, y) in W, by track and node, in place of what `nodes` held.
   void Near(const Eigen::Vector2d& p_W, double radius_m, std::vector<NodeKey>& nodes) const;
 
-  // Where a rectangle's middle stands beside a track: nodes nearest to it, one a track, within radius.
+  // Where a point of W lies beside a track.
   struct Beside {
     std::uint32_t track = 0;
     Curve::Foot foot;
   };
+  // Of each track with a node within radius its foot at the node that is nearest to the point, by ascending track.
   std::vector<Beside> TracksAt(const Eigen::Vector2d& p_W, double radius_m) const;
 
  private:

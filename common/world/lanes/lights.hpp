@@ -32,7 +32,7 @@ struct LightPlace {
   std::uint32_t track = 0;
 };
 
-// The lights of a track, in the order in which its traffic comes to them.
+// The lights of a track, in the order in which its traffic comes to them; d in metres along it.
 std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track);
 
 // The light that holds at d of a track: the last one before it, or, going back over tracks that are the only way here,

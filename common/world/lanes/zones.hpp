@@ -21,8 +21,8 @@ enum class ZoneKind : std::uint8_t {
 
 // A stretch of two tracks on which a car on the one and a car on the other may touch.
 struct Zone {
-  std::array<std::uint32_t, 2> track{};  // ascending
-  std::array<double, 2> in_m{}, out_m{};
+  std::array<std::uint32_t, 2> track{};   // ascending
+  std::array<double, 2> in_m{}, out_m{};  // where it begins and ends, along each track
   ZoneKind kind = ZoneKind::kCross;
   int first = 0;         // the side that has the right of way
   bool signed_ = false;  // by sign, light or the file's priority, not by the rule of the side
@@ -72,6 +72,7 @@ struct Swing {
 using Swings = std::vector<std::vector<Swing>>;
 
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.
+// Immutable: any number of threads may ask. Tracks are those of the graph that it was made from.
 class Zones {
  public:
   // For cars as large as this one: what touches is told from HalfSwath_m of both tracks' curvatures, or a swing to the

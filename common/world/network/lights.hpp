@@ -30,6 +30,7 @@ struct LightTimes {
   std::vector<LightGreen> more = {};  // of the same cycle, in its order; none overlaps another green
 };
 
+// The colour at a time since the run's beginning; `times` must not be wrong (WrongTimes).
 LightColour ColourAt(const LightTimes& times, std::int64_t time_ns);
 
 // Whether the green or amber of one meets the green or amber of the other. Cycles that differ meet somewhen, unless one

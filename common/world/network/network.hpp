@@ -39,9 +39,9 @@ struct LaneEnd {
 
 // Where a point lies in the network.
 struct Place {
-  LaneKey lane;  // lane 0: a road without lanes on that side
-  double s_m = 0.0;
-  double t_m = 0.0;
+  LaneKey lane;      // lane 0: a road without lanes on that side
+  double s_m = 0.0;  // station along the road's axis
+  double t_m = 0.0;  // across it, positive to the left as seen along s
   double z_m = 0.0;  // of the surface there
   double distance_m =
       0.0;  // from the lanes, across the road; farther than kLevel_m above or below counts too. 0: on it
@@ -74,6 +74,7 @@ struct GeoOffset {
   double x_m = 0.0, y_m = 0.0;
   double heading_rad = 0.0;
 
+  // From the network's coordinates to those of the geo reference, in metres, and back.
   Eigen::Vector2d ToMap(const Eigen::Vector2d& p_W) const;
   Eigen::Vector2d FromMap(const Eigen::Vector2d& p_map) const;
 };
@@ -88,7 +89,8 @@ struct NetworkSpec {
 };
 
 // Roads and junctions, what goes on into what, and where a point lies. Immutable: every answer is a pure function of
-// it.
+// it, on any number of threads. Stations s, offsets t and coordinates are metres; a LaneKey that is handed over must
+// name a lane of the network, except for Find.
 class Network {
  public:
   // Two surfaces nearer than this in height are one level; a point this far over a road is still on it.
@@ -109,6 +111,7 @@ class Network {
   std::span<const Road> roads() const { return spec_.roads; }
   std::span<const Junction> junctions() const { return spec_.junctions; }
   std::span<const Controller> controllers() const { return spec_.controllers; }
+  // The index of the road or junction with this id; nothing where there is none.
   std::optional<std::uint32_t> FindRoad(std::string_view id) const;
   std::optional<std::uint32_t> FindJunction(std::string_view id) const;
   // The ground of the junction with a boundary that holds a point; null where none does.
@@ -137,11 +140,13 @@ class Network {
   }
 
   const LaneSection& Section(const LaneKey& key) const { return roads()[key.road].spec().sections[key.section]; }
+  // The lane; null where the network has none of that key.
   const Lane* Find(const LaneKey& key) const;
+  // The lane's edges at s, which is held within its section; nothing for the centre or a lane that is not there.
   std::optional<LaneSpan> Span(const LaneKey& key, double s_m) const {
     return roads()[key.road].SpanAt(key.section, key.lane, s_m);
   }
-  // The point in the middle of a lane at s.
+  // The point on the surface in the middle of a lane at s, in W. s is held within the lane's section.
   Eigen::Vector3d Centre(const LaneKey& key, double s_m) const;
   // The lanes that a lane goes on into at its end, and at its start; junctions are passed through. Ascending.
   std::span<const LaneEnd> AtEnd(const LaneKey& key) const;
@@ -149,7 +154,7 @@ class Network {
   // Those in the direction of the lane's traffic, and where it comes from. Lanes of both directions: as along s.
   std::span<const LaneEnd> Successors(const LaneKey& key) const;
   std::span<const LaneEnd> Predecessors(const LaneKey& key) const;
-  // The lane beside on the left and right as seen along s. The centre is passed over.
+  // The lane beside on the left and right as seen along s; nothing at the road's edge. The centre is passed over.
   std::optional<LaneKey> Left(const LaneKey& key) const;
   std::optional<LaneKey> Right(const LaneKey& key) const;
   // A lane of another road that shares this one's side, and whether its road's s runs the same way; nothing where only

@@ -75,7 +75,7 @@ struct SurfaceSample {
   Eigen::Vector3d dt_W = Eigen::Vector3d::UnitY();
 };
 
-// A road: its reference line and everything along it. Immutable.
+// A road: its reference line and everything along it. Immutable. s runs along the line, t to its left, metres.
 // The surface is  c(s) + t e(s) + h(s, t) z:  c the reference line with its height, e its left, turned by the
 // superelevation about the (climbing) line, h the rest of the lateral profile and of the lanes' heights, counted
 // vertically. A level lane goes on horizontally from its inner edge.
@@ -99,14 +99,17 @@ class Road {
   // Across it is level everywhere: the elevation is all of its height.
   bool flat() const { return !rolled_ && !shaped_; }
 
+  // The lane section in force at s, as an index into RoadSpec::sections; beyond the road's ends the outermost one.
   std::size_t SectionIndex(double s_m) const;
   const LaneSection& SectionAt(double s_m) const { return spec_.sections[SectionIndex(s_m)]; }
+  // t of the lanes' centre at s (the lane offset), and its slope over s.
   geometry::CubicPoint CentreAt(double s_m) const { return spec_.lane_offset.Evaluate(s_m); }
   // s held within a section. Its end is the last s before the next one begins; its lanes may lie elsewhere.
   double Held(std::size_t section, double s_m) const;
   // A lane at s, which is held within its section. Nothing for the centre and unknown lanes.
   std::optional<LaneSpan> SpanAt(std::size_t section, int lane, double s_m) const;
 
+  // The surface at (s, t) in W; s within the road, t beyond the lanes too.
   SurfaceSample Surface(double s_m, double t_m) const;
   // The same where the lane at (s, t) is known, and the reference line there.
   SurfaceSample Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
@@ -134,6 +137,7 @@ class Road {
   // The same, and where nothing is said the limit by signs (Lane::sign_speeds). The one answer for all that drive,
   // measure and draw.
   std::optional<double> SpeedLimitAt(const Lane& lane, double s_m) const;
+  // The mark on a lane's outer edge, and what the lane is made of, in force at s; null where nothing is said.
   const RoadMark* MarkAt(const Lane& lane, double s_m) const;
   const LaneMaterial* MaterialAt(const Lane& lane, double s_m) const;
 

@@ -66,6 +66,8 @@ struct JunctionReading {
   std::vector<network::JunctionGridRow> grid_rows;
 };
 
+// Each reads one element of the file, with its children. What is wrong becomes a finding of the node's source, with its
+// line, and reading goes on. Units are those of the file: metres, radians.
 network::End ReadContact(const Node& node, const char* attribute);
 RoadReading ReadRoad(const Node& road);
 std::vector<geometry::PlanElement> ReadPlanView(const Node& road, RoadLines& lines);

@@ -25,7 +25,7 @@ std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file);
 // kind.
 std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
 
-// In the middle of a lane, facing its traffic.
+// In the middle of a lane at s, facing its traffic. The network must have the lane, other than a centre.
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m);
 
 // Where the car starts on roads that do not say it: on the drivable lane that is longest in one lane section

@@ -25,7 +25,7 @@ class BuiltGround;
 class MarkPaint;
 class NetworkLand;
 
-// The rectangle in which the ground is known; infinite for a plane.
+// The rectangle in which the ground is known, in W (x east, y north); infinite for a plane.
 struct Extents {
   double west_m = 0.0;
   double south_m = 0.0;
@@ -35,16 +35,15 @@ struct Extents {
 
 // A world: terrain (an elevation grid or a plane) and a network of roads; or the roads of an OpenDRIVE file alone.
 // Immutable and shared; the same file gives the same content hash, and the same content hash the same answers, bit by
-// bit.
+// bit. Any number of threads may ask at the same time. Coordinates are in W: x east, y north, z up, metres.
 class World : public std::enable_shared_from_this<World> {
  public:
   // Reads a world file (docs/reference/world-files.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or
-  // a traffic map
-  // (`.motors`). Wrong input where anything is missing, broken, out of range or does not fit together.
+  // a traffic map (`.motors`). Wrong input where anything is missing, broken, out of range or does not fit together.
   static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
   static base::Result<std::shared_ptr<const World>> Parse(std::string_view text, const std::filesystem::path& name);
-  // From its parts, which must fit together as a world file's do.
+  // From its parts, which must fit together as a world file's do; they are not checked.
   static std::shared_ptr<const World> Make(WorldSpec spec);
 
   const std::string& name() const { return name_; }
@@ -53,13 +52,17 @@ class World : public std::enable_shared_from_this<World> {
   // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
   // ask MakeGround() for heights.
   const terrain::ElevationGrid* grid() const { return terrain_.grid.get(); }
+  // The plane under the roads; nothing where the world has a grid, or is an OpenDRIVE file.
   const std::optional<PlaneSpec>& plane() const { return terrain_.plane; }
   // The world is an OpenDRIVE file: it has no terrain of its own.
   bool open_drive() const { return terrain_.grid == nullptr && !terrain_.plane; }
   // What lies beside and under such roads; null where the world is none.
   const NetworkLand* land() const { return land_.get(); }
+  // Of the grid, else of the roads of an OpenDRIVE file, else infinite.
   Extents extents() const;
+  // Where a car starts that is told no other place.
   const StartPose& start() const { return start_; }
+  // Of the terrain without roads: its surface, and its friction (1: dry asphalt).
   ground::Surface terrain_surface() const { return terrain_.surface; }
   double terrain_friction() const { return terrain_.friction; }
   // What lies on the terrain to be seen, and changes no answer; null: nothing.
@@ -73,12 +76,14 @@ class World : public std::enable_shared_from_this<World> {
   std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
   // What was repaired in an OpenDRIVE file: one sentence a kind, with its place.
   std::span<const std::string> warnings() const { return warnings_; }
+  // The coefficient of a surface in this world, dry; 1: asphalt.
   double Friction(ground::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
   // another, the height hint chooses.
   std::unique_ptr<ground::Ground> MakeGround() const;
-  // One of its answers: the road within its verges, and beside it the terrain, which Earthworks shapes to meet it.
+  // One of its answers: the road within its verges, and beside it the terrain, which Earthworks shapes to meet it. The
+  // hint chooses between surfaces as in ground::GroundQuery. Outside of the extents `inside` is false.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
   // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of
   // measured surfaces. This world itself where it has neither; the same network, hash and everything else.

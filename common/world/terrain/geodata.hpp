@@ -24,7 +24,7 @@ namespace rodeira::terrain {
 class MapTransform {
  public:
   virtual ~MapTransform() = default;
-  // Nothing where the projection has no such place.
+  // Map coordinates count east and north. Nothing where the projection has no such place.
   virtual std::optional<EarthPlace> ToEarth(double x_m, double y_m) const = 0;
   virtual std::optional<Eigen::Vector2d> ToMap(const EarthPlace& place) const = 0;
 };

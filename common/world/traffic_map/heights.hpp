@@ -51,14 +51,16 @@ struct Heights {
   bool left_hand =
       false;  // the map's traffic keeps to the left: a vehicle from the left has priority, signs stand on the left
 
+  // z of a curve's four control points, m; zeros where the file does not name it.
   std::array<double, 4> Of(std::int32_t curve) const;
 };
 
 // The number at the end of "FILE:12"; 0 where there is none.
 std::size_t LineOf(const std::string& place);
 
+// From the companion's text; `name` stands for the file in messages. Wrong input: the file's first problem.
 base::Result<Heights> ParseHeights(std::string_view text, const std::filesystem::path& name);
-// The companion of a map; none of it where there is no such file.
+// The companion of a map; empty where there is no such file. Wrong input as ParseHeights, or where it cannot be read.
 base::Result<Heights> LoadHeightsOf(const std::filesystem::path& map_file);
 
 }  // namespace rodeira::traffic_map

@@ -86,7 +86,7 @@ bool BeginsAndEndsAtItsEdge(const LaneMap& map);
 
 // Wrong input with the first error of CheckMap; warnings do not hinder. `name` stands for the file in messages.
 base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, const std::string& name);
-// Reads the file and its companion with the heights.
+// Reads the file and its companion with the heights. Wrong input where either cannot be read, or as MakeLaneMap.
 base::Result<LaneMap> LoadLaneMap(const std::filesystem::path& path);
 
 }  // namespace rodeira::traffic_map

@@ -2,11 +2,13 @@
 // A person's session: the last action in green or red, the check before saving, what is unsaved.
 #include "common/editor/session.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
 #include "tests/common/editor/drawing.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::editor {
 namespace {
@@ -29,7 +31,7 @@ TEST_F(ASession, TheLastActionIsSaid) {
   EXPECT_EQ(session_.said().text, "curve 1 made");
   EXPECT_TRUE(session_.said().good);
   EXPECT_FALSE(session_.Do([](Document& d) { return NewLane(d, Side(5), Side(6), traffic_map::LaneMode::kNone); }));
-  EXPECT_EQ(session_.said().text, "no lane was made: the left curve 5 does not exist");
+  EXPECT_THAT(session_.said().text, Names("no lane … left curve 5"));
   EXPECT_FALSE(session_.said().good);
   session_.Undo();
   EXPECT_EQ(session_.said().text, "undone: curve 1 made");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/world/traffic_map/check.hpp"
+#include "tests/names.hpp"
 #include "tests/nodes/editor/desk_fixture.hpp"
 
 namespace rodeira::nodes {
@@ -64,7 +65,7 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Press(SDL_SCANCODE_TAB);
   Write("6");
   Press(SDL_SCANCODE_RETURN);
-  EXPECT_EQ(Said(), "no lane was made: the left curve 5 does not exist");
+  EXPECT_THAT(Said(), Names("no lane … left curve 5"));
   EXPECT_FALSE(work().session.said().good);
   // The second pair, with ends that catch the first, and the end lane.
   Press(SDL_SCANCODE_C);

@@ -49,8 +49,7 @@ TEST_F(NoGl, PicturesForFilesWantARenderer) {
 
 TEST_F(NoGl, AWindowThatMustBeWantsADisplay) {
   settings_.window = WindowWish::kAlways;
-  EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(2),
-              "a window is wanted, but there is no display; set DISPLAY, or --headless");
+  EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(2), "no display.*--headless");
 }
 
 TEST_F(NoGl, AWindowThatMayBeIsLeftOut) {

@@ -17,6 +17,7 @@ enum class CameraKind { kChase, kDriver, kBonnet, kOrbit, kTop, kTrackside };
 // "chase", "driver", "bonnet", "orbit", "top", "trackside": as settings and options name them, in the order of the
 // kinds.
 std::span<const std::string_view> CameraNames();
+// The kind of that name; nothing where there is none.
 std::optional<CameraKind> CameraOf(std::string_view name);
 // The kind behind it; behind the last one the first.
 CameraKind NextCamera(CameraKind kind);
@@ -95,6 +96,8 @@ Camera TopCamera(const Body& car, const Aim& aim);
 // From posts beside the road, 120 m apart and left and right in turn, each for the part of the road around it; where no
 // road is near, from posts on a lattice. The picture is as wide as the car needs.
 Camera TracksideCamera(const Body& car, const road::World& world);
+// The camera of a kind; `aim` counts for the orbit and the top, `world` for the chase, the orbit and the trackside,
+// `others` for the chase.
 Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world,
                   std::span<const Body> others = {});
 // The camera with one of the moment's bodies, among all others of it; nothing where there is none of that number.

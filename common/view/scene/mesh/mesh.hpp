@@ -63,11 +63,13 @@ struct Mesh {
   std::vector<Eigen::Vector2f> on_face;
   bool repeats = false;  // the picture, beyond its edges
 
+  // A vertex at a point in W; `normal` has unit length. Returns its index, for AddTriangle.
   std::uint32_t Add(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal, Colour colour);
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.insert(triangles.end(), {a, b, c}); }
   // The other mesh behind this one; it must have the same origin.
   void Append(const Mesh& other);
 
+  // Of a vertex, in W, metres.
   Eigen::Vector3d PositionW(std::size_t vertex) const { return origin_W + positions[vertex].cast<double>(); }
   std::size_t triangle_count() const { return triangles.size() / 3; }
 };

@@ -104,13 +104,14 @@ SceneSnapshot Interpolate(const SceneSnapshot& a, const SceneSnapshot& b, double
 // The last few moments, to draw those between them.
 class PoseHistory {
  public:
-  // Later than all before it; another one of the same time replaces it.
+  // A moment later than all before it; another one of the same time replaces it. The eight newest are kept.
   void Add(SceneSnapshot moment);
   bool empty() const { return moments_.empty(); }
+  // The time of the last one; there must be one.
   std::int64_t newest_ns() const { return moments_.back().time_ns; }
   // The interval between the last two; 0 where there is only one.
   std::int64_t interval_ns() const;
-  // At a time held within what is known.
+  // At a time of the simulation, held within what is known; there must be one moment at least.
   SceneSnapshot At(double time_ns) const;
 
  private:

@@ -21,6 +21,19 @@ TEST(Names, AreLookedForInTheirOrder) {
   EXPECT_THAT(std::string(), Not(Names("a")));
 }
 
+TEST(Names, StandOnOneLine) {
+  const std::string text = "node 'a' was lost\nnode 'b' ended\nwith status 1\n";
+  EXPECT_THAT(text, HasLine("'a' … lost"));
+  EXPECT_THAT(text, HasLine("node 'b'"));
+  EXPECT_THAT(text, HasLine("status 1"));
+  EXPECT_THAT(text, Not(HasLine("'a' … 'b'")));
+  EXPECT_THAT(text, Not(HasLine("'b' … status 1")));
+  EXPECT_THAT(text, Not(HasLine("lost … 'a'")));
+  EXPECT_THAT(text, Not(HasLine("")));
+  EXPECT_THAT("'a' is lost", HasLine("'a' … lost")) << "the last line may be without an end";
+  EXPECT_THAT(std::string(), Not(HasLine("a")));
+}
+
 TEST(Names, OfAnErrorGoWithItsId) {
   const Error error = WrongInput("config.unknown_key", "unknown key 'mas_kg'", "a.yaml:3");
   EXPECT_THAT(error, IsError("config.unknown_key", "a.yaml:3: … 'mas_kg'"));

@@ -14,6 +14,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::csv {
 namespace {
@@ -215,8 +216,7 @@ TEST_F(ExportTest, NothingIsLeftOfAnExportThatFails) {
   const auto report = ExportCsv(reader, Out());
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().exit_status(), 2);
-  EXPECT_THAT(report.error().Text(),
-              HasSubstr("rodeira/controls of 'driver' at 0.02 s: byte 4: the message ends after 46 bytes"));
+  EXPECT_THAT(report.error().Text(), rodeira::Names("rodeira/controls of 'driver' at 0.02 s: byte 4: … 46 bytes"));
   EXPECT_EQ(Left(), 0u);
   const auto stopped = ExportCsv(reader, Out(), {}, [](double) { return false; });
   ASSERT_FALSE(stopped.ok());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The writer: the same calls give the same bytes, chunks have their bounds, and a failing disk is an Error.
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 
 #include "common/core/base/files.hpp"
 #include "tests/common/data/record/sample.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::record {
 namespace {
@@ -112,7 +114,7 @@ TEST_F(WriterFile, AFileThatMayNotGrowKeepsItsCompleteChunks) {
 
   ASSERT_TRUE(writer.ok());
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().Text(), path.string() + ": the recording cannot be written: File too large");
+  EXPECT_THAT(status.error(), IsError("recording.cannot_write", path.string() + ": … File too large"));
   EXPECT_EQ(fs::file_size(path), written);  // the torn chunk was cut off
   EXPECT_FALSE(writer.value().Write(1, 0, 0, 0, {}).ok());
   EXPECT_FALSE(writer.value().Close().ok());

@@ -75,7 +75,7 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   ASSERT_TRUE(pipe.Listen(ends_[0], Notify()).ok());
   EXPECT_FALSE(pipe.is_waiting());
   const std::string text =
-      "do 1 pause\nlost ego 3 was killed by signal 9 (Killed)\nnonsense\nlost\nlost x\nlost x y z\nlost road 0\n\n"
+      "do 1 pause\nlost ego 3 a reason of words (9)\nnonsense\nlost\nlost x\nlost x y z\nlost road 0\n\n"
       "said view 1 refused 12 a sentence: it is  whole\nsaid\nsaid view 1 running 2 x\nsaid view 1 failed x y\n"
       "said view 1 failed -1 y\nsaid view 2 lost 3 \n"
       "do 2 mark a b  c\n";
@@ -85,7 +85,7 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   ASSERT_EQ(lost.size(), 2u);
   EXPECT_EQ(lost[0].node, "ego");
   EXPECT_EQ(lost[0].incarnation, 3u);
-  EXPECT_EQ(lost[0].text, "was killed by signal 9 (Killed)");
+  EXPECT_EQ(lost[0].text, "a reason of words (9)");
   EXPECT_EQ(lost[1].text, "was lost");
   const std::vector<LastWord> words = pipe.TakeLastWords();
   ASSERT_EQ(words.size(), 2u);

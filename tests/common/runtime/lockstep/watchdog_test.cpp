@@ -137,12 +137,12 @@ TEST_F(WatchdogTest, SaysWhatAMissingNodeWaitsFor) {
     Hear(0, now, Phase::kReady, Waiting::kGrant);
     Report report;
     report.node = 1;
-    report.message = "waits for the road server's world since 4.9 s";
+    report.message = "waits for something since 4.9 s";
     dog_.Heard(report, now);
     fault = dog_.Check(now, grant_);
   }
   ASSERT_TRUE(fault);
-  EXPECT_THAT(fault->reason, Names("5 s … 'view' … (waits for the road server's world since 4.9 s)"));
+  EXPECT_THAT(fault->reason, Names("5 s … 'view' … (waits for something since 4.9 s)"));
 }
 
 TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {

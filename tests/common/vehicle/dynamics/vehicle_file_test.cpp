@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/common/vehicle/dynamics/test_car.hpp"
+#include "tests/names.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::dynamics {
@@ -92,7 +93,7 @@ TEST(VehicleFile, TyresMayComeFromAPropertyFile) {
   EXPECT_EQ(tyre.pdy1, 0.9);
   EXPECT_EQ(tyre.phy3, 0.01);
   EXPECT_THAT(loaded("    tir: t.tir\n", "[MODEL]\nFITTYP = 52\nPCX1 = x\n").error().Text(),
-              HasSubstr("t.tir:3: 'PCX1' is 'x'; a number was expected"));
+              Names("t.tir:3: 'PCX1' … 'x' … number"));
   EXPECT_THAT(loaded("    tir: none.tir\n", tir).error().Text(), HasSubstr("none.tir"));
   std::filesystem::remove_all(folder);
 }

@@ -2,6 +2,8 @@
 // What mutated files found: each is a road or a sentence.
 #include <gmock/gmock.h>
 
+#include "tests/names.hpp"
+
 #include "tests/common/world/design/made_roads.hpp"
 
 namespace rodeira::design {
@@ -44,7 +46,7 @@ std::vector<std::string> Problems(const std::string& text) {
 TEST(OddFiles, AnUnknownTemplateIsToldAlone) {
   EXPECT_THAT(
       Problems("rodeira: world/2\nroads:\n  - {id: a, axis: [line: {length_m: 50}], section: {template: rurall}}\n"),
-      ElementsAre("made.yaml:3: there is no template 'rurall'; did you mean 'rural'?"));
+      ElementsAre(Names("made.yaml:3: … 'rurall' … 'rural'")));
 }
 
 TEST(OddFiles, TwoHeightsAtOneStationAreToldAlone) {

@@ -17,6 +17,7 @@
 #include "common/core/base/random.hpp"
 #include "common/world/road/world.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -251,7 +252,7 @@ TEST(BordersToldOf, ABorderWithinTheLaneInsideIsNamedWithRoadLaneAndPlace) {
   const std::string little = R"(<border sOffset="0" a="-6.68" b="0.16" c="-0.002" d="0"/>)";
   EXPECT_THAT(errors(little), IsEmpty());
   EXPECT_THAT(errors(little, opendrive::Tolerance::Strict()),
-              ElementsAre(HasSubstr("road 1, lane -2, s 40: the lane's border lies 0.02 m within")));
+              ElementsAre(Names("road 1, lane -2, s 40: … 0.02 m within")));
   const auto import = opendrive::MustImport(text(little));
   ASSERT_EQ(import.warnings.size(), 1u);
   EXPECT_EQ(import.warnings[0].Text(),
@@ -262,7 +263,7 @@ TEST(BordersToldOf, ABorderWithinTheLaneInsideIsNamedWithRoadLaneAndPlace) {
   // Only from the second record on, and at the section's very end.
   EXPECT_THAT(
       errors(R"(<border sOffset="0" a="-5" b="0" c="0" d="0"/><border sOffset="60" a="-5" b="0.05" c="0" d="0"/>)"),
-      ElementsAre(HasSubstr("lane -2, s 100: the lane's border lies 0.5 m within")));
+      ElementsAre(Names("lane -2, s 100: … 0.5 m within")));
 }
 
 TEST(BordersToldOf, WidthsCountWhereALaneHasBoth) {

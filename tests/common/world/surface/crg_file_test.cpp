@@ -14,6 +14,7 @@
 #include "common/world/surface/crg_report.hpp"
 #include "tests/common/world/surface/made_crg.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::surface {
@@ -96,8 +97,8 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
     const auto file = LoadCrg(kFolder / "testOptionBorderMode.crg");
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().exit_status(), 2);
-    EXPECT_THAT(file.error().Text(), HasSubstr("testOptionBorderMode.crg: $ROAD_CRG_FILE names "
-                                               "'../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
+    EXPECT_THAT(file.error().Text(), Names("testOptionBorderMode.crg: $ROAD_CRG_FILE names "
+                                           "'../../../crg-txt/handmade_sloped_opt.crg': … no such file"));
   }
   const cli::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
@@ -241,8 +242,7 @@ TEST(CrgFile, AMisspeltNumberIsToldWithItsColumn) {
   const auto file = made.Parse();
   ASSERT_TRUE(file.ok()) << file.error().Text();
   EXPECT_THAT(file.value().warnings,
-              ElementsAre("line 10: column 25: 'border_offset_u' is '1.500+e00'; a number was expected; it is read as "
-                          "1.5"));
+              ElementsAre(Names("line 10: column 25: 'border_offset_u' is '1.500+e00'; … read as 1.5")));
   for (const auto& [number, column] : {std::pair("1.5+e01", 22), std::pair("1.5 m", 22), std::pair("x", 19)}) {
     made.sections = fmt::format("$ROAD_CRG_OPTS\nBORDER_OFFSET_U = {}\n$\n", number);
     const auto wrong = made.Parse();

@@ -10,6 +10,7 @@
 
 #include "common/core/base/files.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
+#include "tests/names.hpp"
 
 namespace rodeira::traffic_map {
 namespace {
@@ -169,7 +170,7 @@ TEST(MapFile, WhatIsWrongIsSaid) {
   EXPECT_THAT(Refused(With(good, "c,1,2,False,0,0,0", "c,1,2,false,0,0,0")),
               HasSubstr("x.motors:10: the STOP flag is 'false'; True or False was expected"));
   EXPECT_THAT(Refused(With(good, "l,1,1,False,3", "l,1,1,False,8")),
-              HasSubstr("the left border's type is '8'; a whole number from 0 to 7 was expected"));
+              Names("the left border's type is '8'; … from 0 to 7"));
   EXPECT_THAT(Refused(With(good, "2,False,1,1\n", "2,False,1,3\n")), HasSubstr("mode (none, start, end) is '3'"));
   EXPECT_THAT(Refused(With(good, "l,1,", "l,2147483648,")), HasSubstr("the lane's number is '2147483648'"));
   EXPECT_THAT(Refused(With(good, "20,1,1.5", "nan,1,1.5")),

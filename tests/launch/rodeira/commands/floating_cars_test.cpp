@@ -141,7 +141,7 @@ TEST_F(FloatingCars, OfAPartOnAPlane) {
   options.from = "mark:begin";
   const Said no_mark = Of(options);
   EXPECT_EQ(no_mark.status, 2);
-  EXPECT_THAT(no_mark.errors, HasSubstr("the recording has no mark 'begin'"));
+  EXPECT_THAT(no_mark.errors, HasSubstr("no mark 'begin'"));
   EXPECT_FALSE(std::filesystem::exists(options.fcd));
 }
 

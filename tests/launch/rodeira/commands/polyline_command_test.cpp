@@ -2,6 +2,7 @@
 // `rodeira polyline` on the axes of worlds' roads.
 #include "launch/rodeira/commands/polyline_command.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,11 +60,7 @@ TEST(WorldAxis, OfARoadThatJunctionsCutIsWhole) {
   const auto& points_W = line.value().points_W;
   for (std::size_t i = 1; i < points_W.size(); ++i)
     ASSERT_LE((points_W[i] - points_W[i - 1]).head<2>().norm(), 5.0 + 1e-6) << i;
-  EXPECT_NE(AxisOf({kWorlds + "haste.yaml", "mian"}, 5.0)
-                .error()
-                .Text()
-                .find("there is no road 'mian'; did you mean 'main'?"),
-            std::string::npos);
+  EXPECT_THAT(AxisOf({kWorlds + "haste.yaml", "mian"}, 5.0).error().Text(), Names("road 'mian' … 'main'"));
 }
 
 TEST(Polylines, MoveAnAxisAndRefuseARoadThatIsNotThere) {

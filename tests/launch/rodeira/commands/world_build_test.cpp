@@ -17,6 +17,7 @@
 #include "launch/rodeira/commands/world_command.hpp"
 #include "tests/launch/rodeira/commands/world_fixture.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/names.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::cli {
@@ -257,8 +258,7 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   ASSERT_TRUE(write(40).ok());
   ASSERT_EQ(Build(file, out).status, 0);
   EXPECT_EQ(AskedOfWorld("check", out).errors, "");
-  EXPECT_THAT(AskedOfWorld("check", out).out,
-              HasSubstr(": every file of 'logical.txt' and 'visual.txt' is as it was written\n"));
+  EXPECT_THAT(AskedOfWorld("check", out).out, HasLine(out.string() + " … every file … 'logical.txt' … 'visual.txt'"));
   const auto problem = [&](const fs::path& where, const std::string& what) {
     return "rodeira: " + where.string() + ": " + what + "\n";
   };

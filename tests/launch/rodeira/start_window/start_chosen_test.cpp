@@ -74,7 +74,7 @@ TEST_F(StartChosen, AWorldInAFolderOfItsOwnIsInTheListAndAnyOtherOneIsTyped) {
   ASSERT_TRUE(Click("vehicle"));
   TypeInstead("configs/vehicles/none.yaml");
   EXPECT_EQ(start_->choice().vehicle, "configs/vehicles/none.yaml");
-  EXPECT_FALSE(Click("start")) << "there is no such file, and no button";
+  EXPECT_FALSE(Click("start")) << "the file is missing, and so is the button";
   ASSERT_TRUE(Click("vehicle"));
   TypeInstead("configs/vehicles/ode.yaml");
   Open("/bin/true");
