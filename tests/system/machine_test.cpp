@@ -7,8 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -18,6 +17,7 @@
 #include "tests/long_form.hpp"
 #include "tests/names.hpp"
 #include "tests/system/command.hpp"
+#include "tests/system/command_line.hpp"
 
 namespace rodeira::system_test {
 namespace {
@@ -35,23 +35,10 @@ Words Joined(Words first, const Words& second) {
 Words RunOf(const std::string& name, const Words& more) {
   return Joined({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--run", name, "--no-record"}, more);
 }
-// The command line of a process.
-Words CommandOf(pid_t process) {
-  std::ifstream file(fmt::format("/proc/{}/cmdline", process));
-  Words words;
-  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  return words;
-}
 // What half a second of empty.yaml gives without any DDS.
 const std::string& ExpectedDigest() {
   static const std::string kDigest = DigestIn(RunCommand(RunOf("reference", {"--in-process", "--for", "0.5"})).out);
   return kDigest;
-}
-// The word behind `option` in a process's command line.
-std::string OptionOf(pid_t process, const std::string& option) {
-  const Words words = CommandOf(process);
-  const auto at = std::ranges::find(words, option);
-  return at == words.end() || at + 1 == words.end() ? "" : *(at + 1);
 }
 // A name of a run that prefers this domain.
 std::string NameFor(std::uint32_t domain, const std::string& begin) {
@@ -117,7 +104,7 @@ TEST(BesideOneAnother, ANodeProgramStartedASecondTimeByHandEndsTheRun) {
   ASSERT_TRUE(Runs("by-hand"));
   const auto nodes = ProcessesWith("--run by-hand", "--node b");
   ASSERT_EQ(nodes.size(), 1u);
-  (void)RunCommand(CommandOf(nodes.front()));
+  (void)RunCommand(CommandLineOf(nodes.front()));
   const Ended ended = run.Wait(20s);
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("node 'b' takes part twice, as process " + std::to_string(nodes.front())));
@@ -190,6 +177,43 @@ TEST_F(TwoUsers, ADomainWithFilesOfAnotherUserIsUsedOverUdp) {
   EXPECT_EQ(other.status, 0) << other.out;
   EXPECT_THAT(other.out, HasLine(" of domain 219 belongs to user 'root'; … UDP on 127.0.0.1"));
   EXPECT_EQ(DigestIn(other.out), ExpectedDigest()) << other.out;
+}
+
+// The kernel sets root no limit of threads. A higher limit stops a later part of the start.
+TEST_F(TwoUsers, ALimitOfThreadsIsOneSentenceAndLeavesNothing) {
+  const std::string recording = (folder_.path() / "a.mcap").string();
+  const auto limited = [&](int threads, const Words& more) {
+    return RunCommand(Joined({"/usr/bin/prlimit", fmt::format("--nproc={}", threads)},
+                             AsOther(Joined({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "0.2",
+                                             "--run", "users-threads", "--record", recording},
+                                            more))));
+  };
+  const auto sentences = [](const std::string& text) {
+    std::size_t count = 0;
+    for (const char* sentence : {": no further thread can be started (ulimit -u", "rodeira: no thread can be started",
+                                 ": cannot create a process: "}) {
+      for (auto at = text.find(sentence); at != std::string::npos; at = text.find(sentence, at + 1)) ++count;
+    }
+    return count;
+  };
+  std::size_t failed = 0;
+  for (const auto& [threads, more] : std::vector<std::pair<int, Words>>{
+           {1, {}}, {2, {}}, {8, {}}, {20, {}}, {36, {}}, {44, {}}, {1, {"--in-process"}}, {3, {"--in-process"}}}) {
+    SCOPED_TRACE(fmt::format("{} threads {}", threads, more.empty() ? "" : more.front()));
+    const Ended ended = limited(threads, more);
+    EXPECT_TRUE(ProcessesWith("--run users-threads").empty());
+    if (ended.status == 0) {
+      EXPECT_THAT(ended.out, HasSubstr("audit   lossless"));
+      std::filesystem::remove(recording);
+      continue;
+    }
+    ++failed;
+    EXPECT_EQ(ended.status, 1) << ended.out;
+    EXPECT_EQ(sentences(ended.out), 1u) << ended.out;
+    EXPECT_FALSE(std::filesystem::exists(recording)) << ended.out;
+    EXPECT_THAT(ended.out, Not(HasSubstr("wrote "))) << "a recording that is not there";
+  }
+  EXPECT_GE(failed, 5u) << "the limits are no limits here";
 }
 
 TEST_F(TwoUsers, WithoutADomainOfItsOwnARunKeepsAwayFromAnotherUsersFiles) {

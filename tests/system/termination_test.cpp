@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <thread>
 
 #include "tests/launch/rodeira/temporary_folder.hpp"
@@ -178,11 +179,15 @@ INSTANTIATE_TEST_SUITE_P(ByASignal, FrontDoor, ::testing::Values(SIGINT, SIGTERM
 // Found while the node reads its input: wrong input as any other.
 TEST(WrongInputAtTheStart, IsStatusTwo) {
   for (const char* process : {"--quiet", "--in-process"}) {
-    const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--no-record", "--for", "1",
-                                    process, "--set", "world=" + SourceDir() + "/configs/worlds/n222.yaml", "--set",
-                                    "nodes.ego.config.start={x_m: 0, y_m: 1e6}"});
+    const cli::TemporaryFolder folder;
+    const std::string recording = (folder.path() / "a.mcap").string();
+    const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "1", "--record",
+                                    recording, process, "--set", "world=" + SourceDir() + "/configs/worlds/n222.yaml",
+                                    "--set", "nodes.ego.config.start={x_m: 0, y_m: 1e6}"});
     EXPECT_EQ(ended.status, 2) << ended.out;
     EXPECT_NE(ended.out.find("outside of the world"), std::string::npos) << ended.out;
+    EXPECT_FALSE(std::filesystem::exists(recording));
+    EXPECT_EQ(ended.out.find("wrote "), std::string::npos) << "a recording that is not there: " << ended.out;
   }
 }
 

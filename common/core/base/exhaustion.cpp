@@ -11,6 +11,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "common/core/base/exhaustion_text.hpp"
+
 namespace rodeira::base {
 namespace {
 
@@ -31,10 +33,9 @@ std::terminate_handler g_other = nullptr;
     try {
       std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      EndWith("the memory that this program may use is exhausted (ulimit -v, the container's limit, RAM)");
+      EndWith(kNoMemoryText);
     } catch (const std::system_error& error) {
-      if (error.code() == std::errc::resource_unavailable_try_again)
-        EndWith("no further thread can be started (ulimit -u, the container's limit of processes, memory)");
+      if (error.code() == std::errc::resource_unavailable_try_again) EndWith(kNoThreadText);
     } catch (...) {
     }
   }

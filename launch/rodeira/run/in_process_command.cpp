@@ -89,13 +89,16 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const auto start = WallClock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = SecondsSince(start);
+  { const LocalNodes ended = std::move(nodes).value(); }  // the recording is closed, or removed, before it is told of
   const RunReport report = ReportOf(outcome, roster, wall_s);
   const bool is_refused = std::ranges::any_of(
       outcome.reports, [](const lockstep::Report& one) { return one.phase == lockstep::Phase::kRefused; });
   const int status = outcome.ok   ? 0
                      : is_refused ? base::PrintError("rodeira", base::WrongInput("run.refused", outcome.fault))
                                   : base::PrintError("rodeira", base::Failed("run.failed", outcome.fault));
-  if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
+  const bool has_begun = !is_refused || outcome.last_step > 0;
+  if (has_begun && !options.quiet)
+    fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
   return status;
 }
 

@@ -92,7 +92,8 @@ PartLog* NodeProcesses::MakeLog(const std::string& name) {
       std::ranges::replace(text, '/', '_');
       return text;
     };
-    log = std::make_unique<PartLog>(plain(name), base::UserDataFolder() / "logs" / plain(launch_.name()));
+    log = std::make_unique<PartLog>(plain(name), base::UserDataFolder() / "logs" / plain(launch_.name()),
+                                    exhaustion_told_);
   }
   return log.get();
 }
@@ -128,7 +129,10 @@ base::Status NodeProcesses::RestartClock(const ClocksPlace& place) {
 base::Status NodeProcesses::StartNodes() {
   has_nodes_ = true;
   for (const Part& part : parts_) {
-    if (auto status = Start(part, nullptr); !status) return status;
+    auto status = Start(part, nullptr);
+    if (status.ok()) continue;
+    *exhaustion_told_ = true;  // a process or pipe could not be had: what else ends for it says the same
+    return status;
   }
   return {};
 }

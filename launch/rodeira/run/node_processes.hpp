@@ -87,9 +87,10 @@ class NodeProcesses {
   std::vector<std::string> CommandOf(const Part& part) const;
   base::Status Start(const Part& part, Child* place);
 
-  std::vector<Part> parts_;                               // of this PC
-  std::map<std::string, std::uint32_t> wanted_;           // incarnations that the clock asks for, by node
-  std::map<std::string, std::uint32_t> incarnations_;     // of nodes that were started again
+  std::vector<Part> parts_;                            // of this PC
+  std::map<std::string, std::uint32_t> wanted_;        // incarnations that the clock asks for, by node
+  std::map<std::string, std::uint32_t> incarnations_;  // of nodes that were started again
+  const std::shared_ptr<bool> exhaustion_told_ = std::make_shared<bool>(false);
   std::map<std::string, std::unique_ptr<PartLog>> logs_;  // by the child's name; outlive the children
   std::vector<Child> children_;
 };

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/core/base/exhaustion_text.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
 
 namespace rodeira::cli {
@@ -72,7 +73,8 @@ std::shared_ptr<spdlog::logger> OpenFile(const std::filesystem::path& folder, co
 
 }  // namespace
 
-PartLog::PartLog(const std::string& part, std::filesystem::path folder) : part_(part), folder_(std::move(folder)) {}
+PartLog::PartLog(const std::string& part, std::filesystem::path folder, std::shared_ptr<bool> exhaustion_told)
+    : part_(part), folder_(std::move(folder)), exhaustion_told_(std::move(exhaustion_told)) {}
 
 void PartLog::Read(int descriptor) {
   std::array<char, 4096> buffer;
@@ -110,6 +112,13 @@ void PartLog::Finish() {
   if (!rest_.empty()) Take(std::exchange(rest_, {}));
 }
 
+bool PartLog::IsPassedOn(const std::string& line) {
+  if (IsForLogAlone(line)) return false;
+  const bool is_exhaustion =
+      line.find(base::kNoMemoryText) != std::string::npos || line.find(base::kNoThreadText) != std::string::npos;
+  return !is_exhaustion || !exhaustion_told_ || !std::exchange(*exhaustion_told_, true);
+}
+
 void PartLog::Take(std::string line) {
   const bool is_last_word = TakeLastWord(line);
   if (!is_opened_ && !is_last_word) {  // the run says the same: no file begins with it
@@ -117,7 +126,7 @@ void PartLog::Take(std::string line) {
     is_opened_ = true;
   }
   if (file_) file_->log(LevelOf(line), line);
-  if (!IsForLogAlone(line)) std::fprintf(stderr, "%s\n", line.c_str());
+  if (IsPassedOn(line)) std::fprintf(stderr, "%s\n", line.c_str());
   if (auto node = CrashNode(line); !node.empty()) {
     crash_node_ = std::move(node);
   } else if (auto place = CrashPlace(line); !place.empty()) {

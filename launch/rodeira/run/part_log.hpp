@@ -22,7 +22,8 @@ namespace rodeira::cli {
 // cannot be written is left out. For one thread.
 class PartLog {
  public:
-  PartLog(const std::string& part, std::filesystem::path folder);
+  // `exhaustion_told`, shared by the parts of a run: what this PC is short of stops several, and is passed on once.
+  PartLog(const std::string& part, std::filesystem::path folder, std::shared_ptr<bool> exhaustion_told = {});
 
   // Reads what there is in the non-blocking descriptor, without waiting.
   void Read(int descriptor);
@@ -48,10 +49,12 @@ class PartLog {
 
  private:
   void Take(std::string line);
+  bool IsPassedOn(const std::string& line);
   bool TakeLastWord(std::string_view line);  // false if it is none
 
   std::string part_;
   std::filesystem::path folder_;
+  std::shared_ptr<bool> exhaustion_told_;
   std::string rest_;
   std::deque<std::string> last_lines_;
   std::string crash_place_;

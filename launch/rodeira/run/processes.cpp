@@ -49,9 +49,13 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid < 0)
-    return base::Failed("system.cannot_start_program", fmt::format("cannot create a process: {}", std::strerror(errno)),
+  if (pid < 0) {
+    const int error = errno;
+    return base::Failed("system.cannot_start_program",
+                        fmt::format("cannot create a process: {}{}", std::strerror(error),
+                                    error == EAGAIN ? " (ulimit -u, the container's limit of processes)" : ""),
                         name);
+  }
   if (pid == 0) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -76,6 +76,19 @@ TEST_F(PartLogTest, ABacktraceIsKeptButNotPrinted) {
   EXPECT_THAT(File(), AllOf(HasSubstr("critical rodeira: crash: SIGSEGV"), HasSubstr(frame)));
 }
 
+// What a PC is short of ends several parts of a run.
+TEST_F(PartLogTest, WhatAPcIsShortOfIsPrintedOnceForAllParts) {
+  constexpr const char* kSentence =
+      ": no further thread can be started (ulimit -u, the container's limit of "
+      "processes, memory); `rodeira repair` completes a recording\n";
+  const auto told = std::make_shared<bool>(false);
+  log_ = std::make_unique<PartLog>("traffic", folder_.path() / "logs", told);
+  EXPECT_EQ(Write(std::string("rodeira-traffic") + kSentence), std::string("rodeira-traffic") + kSentence);
+  log_ = std::make_unique<PartLog>("road", folder_.path() / "logs", told);
+  EXPECT_EQ(Write(std::string("rodeira-road") + kSentence + "rodeira: it failed\n"), "rodeira: it failed\n");
+  EXPECT_THAT(File("road.log"), HasSubstr("no further thread"));
+}
+
 TEST_F(PartLogTest, RemembersTheForeignCodeOfACrashUntilTheNextProcess) {
   (void)Write("rodeira: crash: SIGSEGV; backtrace:\n");
   EXPECT_EQ(log_->crash_place(), "");
