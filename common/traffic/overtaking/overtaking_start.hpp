@@ -14,6 +14,7 @@
 #include "common/traffic/overtaking/overtaking.hpp"
 #include "common/traffic/perception/neighbours.hpp"
 #include "common/traffic/perception/observation.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/perception/ways.hpp"
 #include "common/traffic/state/agent.hpp"
@@ -47,9 +48,16 @@ class OvertakingStart {
 
   driver::IdmSettings IdmOf(std::uint32_t id) const;
   void ThinkOfOvertaking(std::uint32_t id);
-  // The odometer where a vehicle that is no agent stands before it, far from a junction, if it may be passed on the
-  // lane of oncoming traffic.
-  std::optional<double> PassesStanding_m(std::uint32_t id) const;
+  // The odometer where a vehicle that is no agent stands before it, or could soon if it is slower than `below_mps`, far
+  // from a junction, if it may be passed on the lane of oncoming traffic.
+  std::optional<double> PassesStanding_m(std::uint32_t id, double below_mps = kStandingLeader_mps) const;
+  // Of one on its path out, from its front bumper on: a shorter rest of it that is clear of the one passed wherever
+  // that may stop, and the odometer from which it is; nothing where there is no room for it.
+  struct RestOut {
+    Piece piece;
+    double clear_m = 0.0;
+  };
+  std::optional<RestOut> ShorterRest(std::uint32_t id, const Leader& passed) const;
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
   PassCase CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m, double to_m) const;
 
