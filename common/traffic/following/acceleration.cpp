@@ -7,6 +7,7 @@
 #include "common/driving/driver/idm.hpp"
 #include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/pedestrians/stopping.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
@@ -20,8 +21,6 @@ constexpr double kSeekingShare = 0.75,
                      1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
 constexpr double kTightSeeking_mps = 3.5;  // the same where only slow vehicles change lanes
-constexpr double kRoomToGoRound_m = 9.5;   // between it and what stands before it …
-constexpr double kRoomBraking_mps2 = 3.0;  // … which it brakes so hard to keep
 constexpr double kLaneEndShare = 1.25;     // of comfortable braking, before the end of the lane
 
 }  // namespace
@@ -71,9 +70,10 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, std::max(-kSeeking_mps2, (SeekingSpeed(id, planned) - v) / in_.settings.tracking_s));
   if (const Piece& last = agent.path.back(); agent.change.side != 0 && last.blend_m < kMinLaneChangeLength_m)
     wanted = std::min(wanted, (TightChange_mps(last.offset_m, last.blend_m) - v) / in_.settings.tracking_s);
-  if (const Piece& last = agent.path.back(); agent.overtaking.active() && last.blend_m < kMinLaneChangeLength_m &&
-                                             agent.o_m < last.blend_from_m + last.blend_m)
-    wanted = std::min(wanted, (TightChange_mps(last.aside_m, last.blend_m) - v) / in_.settings.tracking_s);
+  if (const Piece& last = agent.path.back();
+      agent.overtaking.active() && (last.blend_m < kMinLaneChangeLength_m || agent.overtaking.passed_body >= 0) &&
+      agent.o_m < last.blend_from_m + last.blend_m)
+    wanted = std::min(wanted, (TightChange_mps(last.offset_m, last.blend_m) - v) / in_.settings.tracking_s);
   const Leader& ahead = in_.ahead[id];
   if (ahead.any && ahead.gap_m < in_.settings.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
@@ -88,7 +88,7 @@ double Acceleration::Wanted(std::uint32_t id) const {
   if (const auto end = in_.lanes_beside.EndAhead(id))
     wanted = std::min(wanted, in_.following.StopAt(id, end->waits_m, kLaneEndShare));
   auto stands = in_.lanes_beside.GoesRound_m(id);
-  if (!stands) stands = in_.overtaking_start.PassesStanding_m(id);
+  if (!stands) stands = in_.overtaking_start.PassesStanding_m(id, kSlowBody_mps);
   if (stands && agent.change.side == 0) {
     const double soonest = FrontOf(agent, traits) + v * v / (2.0 * kRoomBraking_mps2);
     wanted = std::min(wanted, in_.following.StopAt(id, std::max(*stands - kRoomToGoRound_m, soonest)));

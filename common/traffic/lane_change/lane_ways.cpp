@@ -217,9 +217,11 @@ std::optional<double> LaneWays::WaitsBeside_m(std::uint32_t id) const {
   return waits;
 }
 
-// Bodies on its lane that stand, or come towards it: from its front to where each one is when the vehicle gets there.
+// Bodies on its lane that are slower, or come towards it: from its front to where each one is when the vehicle gets
+// there, or where it could stop.
 template <typename Visit>
-void LaneWays::EachBody(std::uint32_t id, const RouteSegments& way, double to_m, const Visit& visit) const {
+void LaneWays::EachBody(std::uint32_t id, const RouteSegments& way, double to_m, double below_mps,
+                        const Visit& visit) const {
   if (!in_.any_block) return;
   const double front = FrontOf(in_.agents[id], in_.traits[id]), half = 0.5 * in_.traits[id].width_m + kPassingBy_m;
   for (const RouteSegment& stretch : way) {
@@ -228,11 +230,12 @@ void LaneWays::EachBody(std::uint32_t id, const RouteSegments& way, double to_m,
     for (const Block& block : in_.blocks[stretch.track]) {
       const driver::LaneSpan& span = block.span;
       const double gap = stretch.zero_m + span.rear_m - front;
-      if (span.speed_mps > kStandingLeader_mps || stretch.zero_m + block.middle_m < in_.agents[id].o_m || gap > to_m ||
+      if (span.speed_mps > below_mps || stretch.zero_m + block.middle_m < in_.agents[id].o_m || gap > to_m ||
           span.right_m > half || span.left_m < -half)
         continue;
-      visit(Leader{MeetsAfter_m(gap, std::max(kMeetsAt_mps, in_.agents[id].speed_mps), span.speed_mps), 0.0, -1, true,
-                   block.body, span.front_m - span.rear_m, span.left_m, span.right_m});
+      const double stops = span.speed_mps > kStandingLeader_mps ? StopsAfter_m(span.speed_mps) : 0.0;
+      visit(Leader{MeetsAfter_m(gap, std::max(kMeetsAt_mps, in_.agents[id].speed_mps), span.speed_mps) + stops, 0.0, -1,
+                   true, block.body, span.front_m - span.rear_m, span.left_m, span.right_m});
     }
   }
 }
@@ -268,9 +271,9 @@ double LaneWays::Blocked_m(std::uint32_t id) const {
   return body ? body->gap_m : kNoBarrier_m;
 }
 
-std::optional<Leader> LaneWays::BlockedBy(std::uint32_t id) const {
+std::optional<Leader> LaneWays::BlockedBy(std::uint32_t id, double below_mps) const {
   std::optional<Leader> nearest;
-  EachBody(id, in_.stretches[id], kGoesRoundFrom_m, [&](const Leader& body) {
+  EachBody(id, in_.stretches[id], kGoesRoundFrom_m, below_mps, [&](const Leader& body) {
     if (!nearest || body.gap_m < nearest->gap_m) nearest = body;
   });
   return nearest;
@@ -278,7 +281,7 @@ std::optional<Leader> LaneWays::BlockedBy(std::uint32_t id) const {
 
 bool LaneWays::IsKept(std::uint32_t id, const RouteSegments& left, double to_m) const {
   bool is_kept = false;
-  EachBody(id, left, to_m, [&](const Leader& body) {
+  EachBody(id, left, to_m, kStandingLeader_mps, [&](const Leader& body) {
     is_kept = is_kept || !PassesBeside(in_.map.graph, in_.agents[id], in_.traits[id], body);
   });
   return is_kept;

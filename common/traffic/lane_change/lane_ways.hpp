@@ -9,6 +9,7 @@
 #include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/network/traffic_map.hpp"
 #include "common/traffic/pedestrians/pedestrians.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
@@ -57,8 +58,9 @@ class LaneWays {
   // Odometer of the rear of what stands before it on its lane, if that is kept by a vehicle that is no agent, or was
   // hit, and stands there or comes towards it, and it may go round by a lane beside.
   std::optional<double> GoesRound_m(std::uint32_t id) const;
-  // The nearest vehicle on its lane, within 150 m, that is no agent and stands or comes towards it.
-  std::optional<Leader> BlockedBy(std::uint32_t id) const;
+  // The nearest vehicle on its lane, within 150 m, that is no agent and stands or comes towards it, or is slower than
+  // `below_mps`. The gap to one that drives on is to where it could stop.
+  std::optional<Leader> BlockedBy(std::uint32_t id, double below_mps = kStandingLeader_mps) const;
   // Whether there is too little room before it to go round.
   bool IsShutIn(std::uint32_t id) const;
   // Room to the first vehicle that is no agent, or was hit, and stands on its way or comes towards it; far where there
@@ -78,7 +80,7 @@ class LaneWays {
 
  private:
   template <typename Visit>
-  void EachBody(std::uint32_t id, const RouteSegments& way, double to_m, const Visit& visit) const;
+  void EachBody(std::uint32_t id, const RouteSegments& way, double to_m, double below_mps, const Visit& visit) const;
 
   Reads in_;
 };

@@ -79,8 +79,10 @@ double OncomingLane::WantedForOvertaker(std::uint32_t id, double limit_mps) cons
       const double gap = stretch.zero_m + other.front_m - front;
       const double to_there = gap - (overtakes.overtaking.to_m - overtakes.o_m - 0.5 * in_.traits[other.id].length_m);
       if (to_there > v * (overtakes.overtaking.back_s + kTrust_s)) continue;
-      const double stops = overtakes.speed_mps * overtakes.speed_mps / (2.0 * kStops_mps2);
-      wanted = std::min(wanted, driver::IdmAcceleration(in_.traits[id].idm, v, limit_mps, gap - stops, 0.0));
+      double room = gap - overtakes.speed_mps * overtakes.speed_mps / (2.0 * kStops_mps2);
+      // One that passes a vehicle that is no agent cannot go back if that stands: it is left the way to there.
+      if (overtakes.overtaking.passed_body >= 0) room = std::min(room, std::max(to_there, v * v / (2.0 * kStops_mps2)));
+      wanted = std::min(wanted, driver::IdmAcceleration(in_.traits[id].idm, v, limit_mps, room, 0.0));
     }
   }
   return wanted;

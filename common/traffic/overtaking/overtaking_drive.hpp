@@ -45,8 +45,9 @@ class OvertakingDrive {
   void Overtake(std::int64_t step_ns);
 
  private:
+  bool MayStopInWay(std::uint32_t id, const Leader& passed) const;
   bool MayGoBack(std::uint32_t id, bool behind) const;
-  void GoBack(std::uint32_t id);
+  void GoBack(std::uint32_t id, bool behind);
   void DriveOvertaking(std::uint32_t id);
 
   Reads in_;

@@ -32,7 +32,11 @@ constexpr double kSlowest_mps = 1.0;         // at which it is taken to come nea
 constexpr double kStandingClear_m = 1.0;     // before one that stands its path is clear of it
 constexpr double kFarFromJunction_m = 40.0;  // beyond one that stands: it does not wait at a line
 
+bool IsSlowBody(const Leader& other) { return other.body >= 0 && std::fabs(other.speed_mps) < kSlowBody_mps; }
 bool Stands(const Leader& other) { return other.body >= 0 && std::fabs(other.speed_mps) < kStandingLeader_mps; }
+
+// From the front bumper to where the rear of one that may stop will be at the least.
+double StopsAt_m(const Leader& other) { return other.gap_m + (Stands(other) ? 0.0 : StopsAfter_m(other.speed_mps)); }
 
 double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kGain_mps; }
 
@@ -72,22 +76,41 @@ double OvertakingStart::Needs_m(std::uint32_t id, const Leader& passed, int side
   return 0.5 * in_.traits[id].width_m + kOvertakingClearance_m + (side > 0 ? passed.left_m : -passed.right_m);
 }
 
-// Slowly, a path out to be clear of one that stands is as short as that one's nearness makes it.
+// Slowly, a path out to be clear of one that stands, or may soon, is as short as that one's nearness makes it.
 void OvertakingStart::Tighten(std::uint32_t id, Piece& piece) const {
   const Leader& passed = in_.ahead[id];
-  if (!Stands(passed)) return;
+  if (!IsSlowBody(passed)) return;
   const double share = Needs_m(id, passed, piece.aside_m > 0.0 ? 1 : -1) / std::fabs(piece.aside_m),
-               tight = (passed.gap_m - kStandingClear_m) / QuinticShareAt(share);
+               tight = (StopsAt_m(passed) - kStandingClear_m) / QuinticShareAt(share);
   if (tight < piece.blend_m && tight >= kMinTightChangeLength_m &&
       out_.agents[id].speed_mps < TightChange_mps(piece.aside_m, tight))
     piece.blend_m = tight;
 }
 
-std::optional<double> OvertakingStart::PassesStanding_m(std::uint32_t id) const {
+std::optional<OvertakingStart::RestOut> OvertakingStart::ShorterRest(std::uint32_t id, const Leader& passed) const {
+  const Agent& agent = out_.agents[id];
+  const Piece& last = agent.path.back();
+  const double front = FrontOf(agent, in_.traits[id]), aside = std::fabs(last.aside_m);
+  const PathFrame at = FrameAt(in_.map.graph, agent.path, front);
+  const double to_go = std::fabs(at.offset_m - last.aside_m),
+               may_lack = aside - Needs_m(id, passed, agent.overtaking.side);
+  const double clear = StopsAt_m(passed) - kStandingClear_m;
+  if (may_lack <= 0.0 || to_go <= may_lack || clear <= 0.0) return std::nullopt;
+  RestOut rest{{last.track, last.zero_m, front, at.offset_m - last.aside_m, at.slope}, front + clear};
+  rest.piece.blend_from_m = front;
+  rest.piece.aside_m = last.aside_m;
+  rest.piece.blend_m = clear / QuinticShareAt(1.0 - may_lack / to_go);
+  if (rest.piece.blend_m < kMinTightChangeLength_m * std::sqrt(to_go / aside) ||
+      agent.speed_mps >= TightChange_mps(to_go, rest.piece.blend_m))
+    return std::nullopt;
+  return rest;
+}
+
+std::optional<double> OvertakingStart::PassesStanding_m(std::uint32_t id, double below_mps) const {
   const Agent& agent = out_.agents[id];
   const lanes::Track& track = in_.map.graph[agent.path.back().track];
   if (!in_.settings.overtaking.allowed || agent.overtaking.active() || track.left || track.right) return std::nullopt;
-  const auto body = in_.lanes_beside.BlockedBy(id);
+  const auto body = in_.lanes_beside.BlockedBy(id, below_mps);
   if (!body) return std::nullopt;
   const double front = FrontOf(agent, in_.traits[id]), stands = front + body->gap_m, clear = stands + body->length_m;
   const auto piece = PieceOut(id, 0.0);
@@ -144,6 +167,8 @@ std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaki
     if (piece->blend_m < kMinLaneChangeLength_m)  // from a walking pace on it gains speed on its way out
       pass.speed_mps = std::max(v, 0.5 * TightChange_mps(piece->aside_m, piece->blend_m));
     if (pass.gains_mps2 < kMinGain_mps2 || passed.gap_m - (fast - passed.speed_mps) * pass.to_clear_m / fast < clear_m)
+      return std::nullopt;
+    if (IsSlowBody(passed) && !Stands(passed) && StopsAt_m(passed) < pass.to_clear_m + kPassingBy_m)
       return std::nullopt;
     plan = PlanPass(pass);
     if (oncoming.from_m - front - plan.way_m < oncoming.speed_mps * (plan.time_s + in_.settings.overtaking.margin_s))

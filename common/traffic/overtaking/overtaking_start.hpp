@@ -14,6 +14,7 @@
 #include "common/traffic/overtaking/overtaking.hpp"
 #include "common/traffic/perception/neighbours.hpp"
 #include "common/traffic/perception/observation.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/perception/ways.hpp"
 #include "common/traffic/state/agent.hpp"
@@ -48,9 +49,16 @@ class OvertakingStart {
   // While it overtakes it is in more of a hurry, and comes nearer to its leader.
   driver::IdmSettings IdmOf(std::uint32_t id) const;
   void ThinkOfOvertaking(std::uint32_t id);
-  // The odometer where a vehicle that is no agent stands before it, far from a junction, if it may be passed on the
-  // lane of oncoming traffic.
-  std::optional<double> PassesStanding_m(std::uint32_t id) const;
+  // The odometer where a vehicle that is no agent stands before it, or could soon if it is slower than `below_mps`, far
+  // from a junction, if it may be passed on the lane of oncoming traffic.
+  std::optional<double> PassesStanding_m(std::uint32_t id, double below_mps = kStandingLeader_mps) const;
+  // Of one on its path out, from its front bumper on: a shorter rest of it that is clear of the one passed wherever
+  // that may stop, and the odometer from which it is; nothing where there is no room for it.
+  struct RestOut {
+    Piece piece;
+    double clear_m = 0.0;
+  };
+  std::optional<RestOut> ShorterRest(std::uint32_t id, const Leader& passed) const;
   // The least that it may, and wants to, drive between two odometers.
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
   // What is still to be done from now on behind, or beside, the one passed.

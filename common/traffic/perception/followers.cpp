@@ -61,8 +61,14 @@ std::optional<Leader> Neighbours::FindOvertaken(std::uint32_t id) const {
     }
     for (const Block& block : in_.blocks[stretch.track]) {
       if (block.body == way.passed_body)
-        return Leader{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body,
-                      block.span.front_m - block.span.rear_m};
+        return Leader{stretch.zero_m + block.span.rear_m - front,
+                      block.span.speed_mps,
+                      -1,
+                      true,
+                      block.body,
+                      block.span.front_m - block.span.rear_m,
+                      block.span.left_m,
+                      block.span.right_m};
     }
   }
   return std::nullopt;

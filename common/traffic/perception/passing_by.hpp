@@ -14,6 +14,13 @@ namespace rodeira::traffic {
 inline constexpr double kStandingLeader_mps = 0.5;  // a slower leader stands
 inline constexpr double kPassingBy_m = 0.3;         // between the sides of two vehicles
 inline constexpr double kPassingStep_m = 1.0;       // between two places that are checked
+inline constexpr double kSlowBody_mps = 5.0;        // a vehicle that is no agent, and slower, may soon stand
+inline constexpr double kBodyBrakes_mps2 = 6.0;     // … and so hard at most
+inline constexpr double kRoomToGoRound_m = 9.5;     // between it and what stands before it …
+inline constexpr double kRoomBraking_mps2 = 3.0;    // … which it brakes so hard to keep
+
+// How far a vehicle that is no agent drives until it stands, at least.
+inline double StopsAfter_m(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kBodyBrakes_mps2); }
 
 // Of a gap, the part that a vehicle drives until it meets what comes towards it; all of it where the other one stands.
 inline double MeetsAfter_m(double gap_m, double speed_mps, double other_mps) {

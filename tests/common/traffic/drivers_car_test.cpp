@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A driver's car drives in eight ways among traffic, on a road of two lanes a direction, and in three where there is
-// one: no vehicle drives into it or into another one, and none waits longer than a minute (for a gap in oncoming
-// traffic 100 s) where there is a way on or round it.
+// one; there it also drives on, and stands again, while it is passed. No vehicle drives into it or into another one,
+// and none waits longer than a minute (for a gap in oncoming traffic 100 s) where there is a way on or round it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,6 +48,7 @@ std::shared_ptr<const network::Network> Road(int lanes) {
 // The driver's car: where it is, and what it does with pedals and wheel.
 struct Car {
   double x_m = kAt_m, y_m = kInner_y, heading_rad = 0.0, speed_mps = 0.0;
+  double goes_from_s = -1e9;  // when it last drove on
 
   driver::Footprint At() const { return {9999, x_m, y_m, heading_rad, speed_mps, kCarLength_m, 1.8}; }
   void Drive(double wish_mps, double rate_mps2) {
@@ -123,6 +124,32 @@ const Way kWaysOnOneLane[] = {
     {"DrivesSlowly",
      {500.0, kInner_y, 0.0, 4.0},
      [](Car& car, double, const TrafficModel& model) { car.Drive(Room(car, model) < 8.0 ? 0.0 : 4.0, 4.0); }},
+};
+
+// Stands, drives on when the middle of a vehicle that passes it has come so near behind its own, and stops again after
+// so long.
+template <int kNear_m, int kGoes_s>
+void StandsAgain(Car& car, double t_s, const TrafficModel& model) {
+  constexpr double kOut_m = 0.5, kStep_m = 4.0, kWish_mps = 4.0, kStandsFor_s = 8.0;
+  for (const AgentPose& pose : model.poses()) {
+    const double behind = car.x_m - pose.p_WB_W.x(), aside = pose.p_WB_W.y() - kInner_y;
+    if (behind > kNear_m - kStep_m && behind < kNear_m && aside > kOut_m &&
+        (pose.q_WB * Eigen::Vector3d::UnitX()).x() > 0.0 && t_s > car.goes_from_s + kGoes_s + kStandsFor_s)
+      car.goes_from_s = t_s;
+  }
+  car.Drive(t_s > car.goes_from_s + kGoes_s || Room(car, model) < 8.0 ? 0.0 : kWish_mps, 4.0);
+}
+
+const Way kWaysOfStandingAgain[] = {
+    {"HalfOutFor1s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<12, 1>},
+    {"HalfOutFor2s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<12, 2>},
+    {"HalfOutFor4s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<12, 4>},
+    {"HalfOutFor8s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<12, 8>},
+    {"BehindFor2s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<7, 2>},
+    {"BehindFor5s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<7, 5>},
+    {"BesideFor1s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<1, 1>},
+    {"BesideFor3s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<1, 3>},
+    {"BesideFor8s", {kAt_m, kInner_y, 0.0, 0.0}, StandsAgain<1, 8>},
 };
 
 TrafficSettings Demand(std::uint64_t seed, int lanes) {
@@ -226,6 +253,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, DriversCar, ::testing::ValuesIn(kWays), NameOf);
 class DriversCarOnOneLane : public ::testing::TestWithParam<Way> {};
 TEST_P(DriversCarOnOneLane, IsAvoidedAndPassed) { DriveAmongTraffic(GetParam(), 1, kLeaveOneLane, kWaitsForGap_s); }
 INSTANTIATE_TEST_SUITE_P(Ways, DriversCarOnOneLane, ::testing::ValuesIn(kWaysOnOneLane), NameOf);
+INSTANTIATE_TEST_SUITE_P(StandsAgain, DriversCarOnOneLane, ::testing::ValuesIn(kWaysOfStandingAgain), NameOf);
 
 }  // namespace
 }  // namespace rodeira::traffic
