@@ -189,6 +189,7 @@ Simulation::Simulation(TrafficData data)
       grants{{.settings = settings,
               .map = *map,
               .traits = store.traits,
+              .ahead = seen.ahead,
               .limits = limits,
               .merging = merging,
               .claims = claims,

@@ -14,7 +14,8 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLaterThan_s = 30.0;  // of no interest now
+constexpr double kLaterThan_s = 30.0;    // of no interest now
+constexpr double kBodyHorizon_s = 12.0;  // a long vehicle from rest, behind another one, needs so long to cross
 constexpr double kYielded_mps2 =
     1.0;                        // by which others may have to brake, on the average, for one that merges before them
 constexpr double kLag_s = 1.0;  // … and so much later than that one they come
@@ -138,8 +139,8 @@ void Claims::OthersAtZones() {
         out_.book.Hold(part.zone, mine, {nobody});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
-      // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that
-      // is not green, if it can stop there.
+      // Where it goes is not known: it comes to all zones within kBodyHorizon_s, on every way; but not past a light
+      // that is not green, if it can stop there.
       struct At {
         std::uint32_t track;
         double ahead_m;
@@ -152,7 +153,7 @@ void Claims::OthersAtZones() {
           const lanes::Zone& zone = in_.map.zones[part.zone];
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
-          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps ||
+          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > kBodyHorizon_s * block.span.speed_mps ||
               zone.in_m[mine] > stops_m)
             continue;
           out_.book.Come(part.zone, mine,
@@ -160,7 +161,7 @@ void Claims::OthersAtZones() {
                           (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + in_.map.graph[at.track].length_m();
-        if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;
+        if (end > kBodyHorizon_s * block.span.speed_mps || stops_m < kNoBarrier_m) continue;
         for (const lanes::Link& link : in_.map.graph[at.track].next) open.push_back({link.to, end - link.from_d_m});
       }
     }

@@ -13,6 +13,7 @@ namespace {
 constexpr double kPriorityWait_s = 40.0;
 
 constexpr double kGap_s = 1.0;     // after the own clearing before the one with priority may arrive
+constexpr double kTouch_s = 0.3;   // the same, of one that its leader keeps from clearing sooner
 constexpr double kBehind_s = 0.5;  // after the own arrival a zone's holder may be out of it at the latest
 constexpr double kZipSpeed_mps = 7.0,
                  kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
@@ -96,6 +97,21 @@ bool Grants::IsHeld(std::uint32_t id, bool heeded) {
                      [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
 }
 
+// Seconds until a vehicle that follows another one out of the zone is clear of it, at the earliest: in a queue each one
+// drives as its leader does, later by its time gap and behind by a standing gap (Newell 2002). 0: it follows none.
+double Grants::ClearsBehindLeader(std::uint32_t id, double out_m) const {
+  const Leader& ahead = in_.ahead[id];
+  if (ahead.id < 0) return 0.0;
+  const auto leader = static_cast<std::uint32_t>(ahead.id);
+  const double own_rear_there = out_m + in_.traits[id].length_m;  // odometer of the front
+  const double its_rear = out_.agents[id].o_m + 0.5 * in_.traits[id].length_m + ahead.gap_m;
+  const double way = own_rear_there + in_.traits[id].idm.standing_gap_m - its_rear;
+  if (way <= 0.0) return 0.0;
+  return in_.traits[id].idm.time_gap_s + TravelTime(way, ahead.speed_mps, in_.limits.Desired_mps(leader),
+                                                    in_.traits[leader].start_mps2,
+                                                    {out_.agents[leader].wish_mps2, in_.settings.smooth.planned_mps3});
+}
+
 // Whether one with priority is about to come to the zone before this one is out of it. Where lanes zip, it is the
 // other side's turn as long as the last reservation is from this one.
 bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
@@ -110,6 +126,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   const double way_out = crossing.out_m - agent.o_m + 0.5 * in_.traits[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, in_.limits.AllowedAt(id, crossing.out_m),
                                    in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+  const double follows = ClearsBehindLeader(id, crossing.out_m);
   for (const ApproachingVehicle& comer : comers) {
     if (comer.id == id) continue;
     const bool agents = comer.id < out_.agents.size();
@@ -122,7 +139,9 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
     if (!its_turn) {
       if (zone.first == crossing.side) continue;
       const double arrives = in_.claims.ArrivesAt(comer);
-      if (arrives > clears + kGap_s || in_.claims.IsFarEnough(id, crossing, comer, arrives, clears)) continue;
+      if ((arrives > clears + kGap_s && arrives > follows + kTouch_s) ||
+          in_.claims.IsFarEnough(id, crossing, comer, arrives, clears))
+        continue;
     }
     out_.passages[id].waits_for = agents ? static_cast<std::int64_t>(comer.id) : -1;
     const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;

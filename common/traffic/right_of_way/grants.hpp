@@ -6,6 +6,7 @@
 
 #include "common/traffic/following/speed_limits.hpp"
 #include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
 #include "common/traffic/right_of_way/claims.hpp"
 #include "common/traffic/right_of_way/merging.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
@@ -26,6 +27,7 @@ class Grants {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
+    std::span<const Leader> ahead;
     const SpeedLimits& limits;
     const Merging& merging;
     const Claims& claims;
@@ -56,6 +58,7 @@ class Grants {
   void Take(std::uint32_t id, std::size_t crossings, const ZoneGrant& grant);
   bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder);
   bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
+  double ClearsBehindLeader(std::uint32_t id, double out_m) const;
   bool Yields(std::uint32_t id, const Crossing& crossing);
 
   Reads in_;

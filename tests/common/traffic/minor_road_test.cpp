@@ -26,9 +26,10 @@ class Crossroads {
   // `times_s`: when a major car's front is at the crossing's middle; ascending. Returns when a minor one's middle is
   // there.
   static std::vector<double> Crossed(const std::vector<double>& times_s, double duration_s,
-                                     const driver::SmoothSettings& smooth = {}) {
+                                     const driver::SmoothSettings& smooth = {}, double time_gap_s = 1.5) {
     TrafficSettings settings = Identical(40, 1.4);
     settings.smooth = smooth;
+    settings.idm.time_gap_s = time_gap_s;
     TrafficModel model = TrafficModel::Make(settings, Roads(), {}).value();
     std::vector<double> crossed, before(settings.vehicles, 1e9);
     std::vector<driver::Footprint> others;
@@ -140,6 +141,20 @@ TEST(MinorRoad, SmoothDriversCrossAsSafely) {
   }
   EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s).size(),
             Crossroads::Crossed(arrivals, kFor_s, kAtOnce).size() * 4 / 5);
+}
+
+// Those who follow closely are kept by their leader from clearing the road as soon as they could alone, and look as far
+// along it as they then need.
+TEST(MinorRoad, CloseFollowersCrossAsSafely) {
+  const double kFor_s = BriefOrLong(1500.0, 2400.0);
+  std::mt19937 random(7);
+  std::vector<double> arrivals;
+  for (double t = 60.0; t < kFor_s;) {
+    t -= 6.0 * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
+    arrivals.push_back(t);
+  }
+  EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s, {}, 1.0).size(),
+            Crossroads::Crossed(arrivals, kFor_s).size() * 4 / 5);
 }
 
 }  // namespace
