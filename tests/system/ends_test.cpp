@@ -134,9 +134,7 @@ class CellRun {
     if (!cell_.message.empty() && ended.out.find(cell_.message) == std::string::npos) Add("the message is missing");
     if (cell_.message.empty() && ended.out.find("faults  none") == std::string::npos) Add("a fault is named");
     if (cell_.outcome == "goes on" && DigestIn(ended.out) != undisturbed_) Add("another digest");
-    if ((cell_.outcome == "ends" || cell_.outcome == "in order") &&
-        lasted >
-            (cell_.part == "view" ? 7000ms : 3500ms))  // the kernel takes down a picture's memory slowly under load
+    if ((cell_.outcome == "ends" || cell_.outcome == "in order") && lasted > 3500ms)
       Add(fmt::format("it took {:.1f} s", std::chrono::duration<double>(lasted).count()));
     observer_.reset();
     if (!ProcessesWith("--run " + name_).empty()) Add("processes are left");
