@@ -13,8 +13,8 @@ namespace rodeira::cli {
 
 // A file to be written, in a folder that is there.
 CLI::Validator NewFile();
-// Beside NewFile: with a file whose name ends with `when` (any, where it is empty) another one is written, of the same
-// name up to `ending`.
+// Beside NewFile: with a file that is named *`when` (any, where it is empty) another one is written, of the same name
+// but for its `ending`.
 CLI::Validator AlsoWrites(const std::string& ending, const std::string& when = "");
 // A folder to write files into; it is made where it is missing.
 CLI::Validator NewFolder();

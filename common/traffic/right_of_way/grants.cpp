@@ -98,7 +98,7 @@ bool Grants::IsHeld(std::uint32_t id, bool heeded) {
 }
 
 // Seconds until a vehicle that follows another one out of the zone is clear of it, at the earliest: in a queue each one
-// drives as its leader does, later by its time gap and behind by a standing gap (Newell 2002). 0: it follows none.
+// drives as its leader does, later by its time gap and behind by a minimum gap (Newell 2002). 0: it follows none.
 double Grants::ClearsBehindLeader(std::uint32_t id, double out_m) const {
   const Leader& ahead = in_.ahead[id];
   if (ahead.id < 0) return 0.0;

@@ -143,8 +143,8 @@ TEST(MinorRoad, SmoothDriversCrossAsSafely) {
             Crossroads::Crossed(arrivals, kFor_s, kAtOnce).size() * 4 / 5);
 }
 
-// Those who follow closely are kept by their leader from clearing the road as soon as they could alone, and look as far
-// along it as they then need.
+// A close follower is kept by its leader from clearing the road as soon as it could alone, and looks as far along it as
+// it then needs.
 TEST(MinorRoad, CloseFollowersCrossAsSafely) {
   const double kFor_s = BriefOrLong(1500.0, 2400.0);
   std::mt19937 random(7);
