@@ -8,18 +8,16 @@
 
 #include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/motion/hands.hpp"
-#include "common/traffic/network/outline.hpp"
 #include "common/traffic/network/track_plan.hpp"
 #include "common/traffic/state/agent.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kTight = 0.16;  // wheelbase over radius of bends that are looked at; wider ones put a car's corner
-                                 // less than 0.2 m farther out than lines do …
-constexpr double kTightOnLine = 0.04;  // … and less than 0.06 m, with both axles on the line
-constexpr double kAround_m = 16.0;     // of way before and behind such a track …
-constexpr double kSettles_m = 8.0;     // … of which so much settles how the car lies there
+constexpr double kTight = 0.16;     // wheelbase over radius of bends that are looked at; wider ones put a car's corner
+                                    // less than 0.2 m farther out than lines do
+constexpr double kAround_m = 16.0;  // of way before and behind such a track …
+constexpr double kSettles_m = 8.0;  // … of which so much settles how the car lies there
 constexpr double kStep_s = 0.02, kOutlineStep_m = 0.5, kOutline_m = 0.9;
 constexpr double kPlan_m = 0.5;
 constexpr double kPlannedBraking_mps2 = 1.5;
@@ -27,14 +25,12 @@ constexpr double kMinSwingSpeed_mps = 0.5;
 constexpr std::array kShares{
     1.0, 0.6,
     0.3};  // of the planned speed: hands are late at the first, at the last a car that comes from rest cuts the bend
-constexpr std::size_t kMaxPaths = 64;   // through one track
-constexpr double kSmallSwing_m = 0.07;  // beyond the curvature's: none (two stay within zones' margin)
-constexpr double kStraight = 1e-6;      // a path, by its middle's distance from the chord over the wheelbase
+constexpr std::size_t kMaxPaths = 64;  // through one track
 
 class Swinger {
  public:
   Swinger(const lanes::Graph& graph, const TrafficSettings& settings)
-      : graph_(graph), settings_(settings), largest_(LargestOf(settings)), outline_(graph, largest_) {
+      : graph_(graph), settings_(settings), largest_(LargestOf(settings)), swings_(graph.tracks().size()) {
     const auto bodies = BodiesOf(settings);
     const auto base = [](std::uint32_t body) { return CarOfBody(body).body.wheelbase_m; };
     car_ = &CarOfBody(*std::max_element(bodies.begin(), bodies.end(),
@@ -43,16 +39,13 @@ class Swinger {
     speed_.tips_mps2 = TipsAt_mps2(settings);
   }
 
-  lanes::Swings Take() {
-    if (on_line()) outline_.DropWhatCurvaturesSay(kSmallSwing_m);
-    return outline_.Take();
-  }
+  lanes::Swings Take() { return std::move(swings_); }
 
   bool IsTight(std::uint32_t track) const {
     const auto& nodes = graph_[track].curve.nodes();
-    const double tight = on_line() ? kTightOnLine / largest_.wheelbase_m : kTight / car_->body.wheelbase_m;
-    return std::any_of(nodes.begin(), nodes.end(),
-                       [&](const lanes::Curve::Node& node) { return std::fabs(node.curvature_1pm) > tight; });
+    return std::any_of(nodes.begin(), nodes.end(), [&](const lanes::Curve::Node& node) {
+      return std::fabs(node.curvature_1pm) * car_->body.wheelbase_m > kTight;
+    });
   }
 
   // Over every way through a track.
@@ -98,7 +91,6 @@ class Swinger {
     const auto& next = graph_[path.back().track].next;
     if (path.back().zero_m + graph_[path.back().track].length_m() >= to_m || next.empty()) {
       if (ways++ >= kMaxPaths) return;
-      if (on_line()) return Slide(path, to_m);
       for (const double share : kShares) Drive(path, to_m, share);
       return;
     }
@@ -106,22 +98,6 @@ class Swinger {
       Path on = path;
       on.push_back(Onward(graph_, path, link, kMinSwingSpeed_mps));
       On(on, to_m, ways);
-    }
-  }
-
-  // Both axles keep to the line (planar cars).
-  bool on_line() const { return settings_.physics != Physics::kFull; }
-
-  // Moves the largest car along a path. Where the path below it is straight, its sides are where they are known.
-  void Slide(const Path& path, double to_m) {
-    const double half_base = 0.5 * largest_.wheelbase_m;
-    const double end_m = std::min(to_m, path.back().zero_m + graph_[path.back().track].length_m()) - half_base;
-    for (double o = half_base; o <= end_m; o += kOutlineStep_m) {
-      const Eigen::Vector2d rear_W = FrameAt(graph_, path, o - half_base).p_W.head<2>(),
-                            front_W = FrameAt(graph_, path, o + half_base).p_W.head<2>();
-      const Eigen::Vector2d middle_W = 0.5 * (rear_W + front_W);
-      if ((FrameAt(graph_, path, o).p_W.head<2>() - middle_W).norm() < kStraight * largest_.wheelbase_m) continue;
-      outline_.Note(path, middle_W, (front_W - rear_W).normalized(), o, 1);
     }
   }
 
@@ -137,7 +113,6 @@ class Swinger {
   void Drive(const Path& path, double to_m, double share) {
     const double wheelbase = car_->body.wheelbase_m, half_base = 0.5 * wheelbase;
     const double end_m = std::min(to_m, path.back().zero_m + graph_[path.back().track].length_m()) - half_base;
-    const auto points = static_cast<int>(std::ceil(largest_.length_m / kOutline_m));
     double o = half_base;  // of the middle
     std::vector<double> squared;
     for (double at = 0.0; at <= end_m + half_base; at += kPlan_m) squared.push_back(PlannedSquared(path, at));
@@ -153,10 +128,7 @@ class Swinger {
            next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;
     while (o < end_m) {
       const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
-      if (o >= next_look_m) {
-        outline_.Note(path, rear + half_base * ahead, ahead, o, points);
-        next_look_m += kOutlineStep_m;
-      }
+      if (o >= next_look_m) Look(path, rear + half_base * ahead, ahead, o), next_look_m += kOutlineStep_m;
       const double speed =
           std::max(kMinSwingSpeed_mps,
                    share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
@@ -184,8 +156,46 @@ class Swinger {
       const Eigen::Vector2d middle = rear + half_base * Eigen::Vector2d(std::cos(heading), std::sin(heading));
       const double before = o;
       o += speed * kStep_s;
-      for (int turn = 0; turn < 2; ++turn) o = outline_.FootOf(path, middle, o);
+      for (int turn = 0; turn < 2; ++turn) o = FootOf(path, middle, o);
       o = std::max(o, before + 0.1 * speed * kStep_s);
+    }
+  }
+
+  double FootOf(const Path& path, const Eigen::Vector2d& p_W, double near_m) const {
+    const PathFrame frame = FrameAt(graph_, path, near_m);
+    return near_m + frame.ahead_W.dot(p_W - frame.p_W.head<2>()) / frame.stretch;
+  }
+
+  // Notes the outline of the car here at the nodes beside it.
+  void Look(const Path& path, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double o) {
+    const Eigen::Vector2d left(-ahead.y(), ahead.x());
+    const double half = 0.5 * largest_.length_m;
+    const auto count = static_cast<int>(std::ceil(largest_.length_m / kOutline_m));
+    for (int i = 0; i <= count; ++i) {
+      const double x = -half + largest_.length_m * i / count;
+      for (const double side : {-0.5, 0.5}) {
+        const Eigen::Vector2d p = middle + x * ahead + side * largest_.width_m * left;
+        double at = o + x;
+        for (int turn = 0; turn < 3; ++turn) at = std::clamp(FootOf(path, p, at), o - half, o + half);
+        const PathFrame frame = FrameAt(graph_, path, at);
+        const double offset = (p - frame.p_W.head<2>()).dot(Eigen::Vector2d(-frame.ahead_W.y(), frame.ahead_W.x()));
+        for (const Piece& piece : path) Note(piece.track, at - piece.zero_m, offset);
+      }
+    }
+  }
+
+  void Note(std::uint32_t track, double d_m, double offset_m) {
+    const auto& nodes = graph_[track].curve.nodes();
+    constexpr double kBeside_m = 0.75;
+    if (d_m < -kBeside_m || d_m > graph_[track].length_m() + kBeside_m) return;
+    std::vector<lanes::Swing>& swings = swings_[track];
+    if (swings.empty()) swings.resize(nodes.size());
+    auto node = std::lower_bound(nodes.begin(), nodes.end(), d_m - kBeside_m,
+                                 [](const lanes::Curve::Node& at, double d) { return at.d_m < d; });
+    for (; node != nodes.end() && node->d_m <= d_m + kBeside_m; ++node) {
+      const auto i = static_cast<std::size_t>(node - nodes.begin());
+      swings[i].left_m = std::max(swings[i].left_m, offset_m);
+      swings[i].right_m = std::max(swings[i].right_m, -offset_m);
     }
   }
 
@@ -195,13 +205,14 @@ class Swinger {
   const dynamics::BicycleSettings* car_;
   driver::SpeedPlanSettings speed_;
   std::map<std::uint32_t, driver::SpeedPlan> plans_;  // by track
-  Outline outline_;
+  lanes::Swings swings_;
 };
 
 }  // namespace
 
 lanes::Swings SwingsOf(const lanes::Graph& graph, const TrafficSettings& settings) {
-  if (settings.driver == DriverKind::kMotors || BodiesOf(settings).empty()) return {};
+  if (settings.physics != Physics::kFull || settings.driver == DriverKind::kMotors || BodiesOf(settings).empty())
+    return {};
   Swinger swinger(graph, settings);
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     if (swinger.IsTight(track)) swinger.Through(track);

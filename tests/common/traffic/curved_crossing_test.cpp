@@ -153,18 +153,17 @@ Counted Drive(const Shape& shape, std::uint64_t seed) {
 class CurvedCrossing : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(CurvedCrossing, SlantedVehiclesAreNotHit) {
-  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Counted counted = Drive(GetParam(), seed);
     EXPECT_EQ(counted.contacts, 0) << seed;
     EXPECT_GT(counted.slanted, 2000) << seed;
-    EXPECT_GT(counted.ended, 25u) << seed;
+    EXPECT_GT(counted.ended, 40u) << seed;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, CurvedCrossing,
                          ::testing::Values(Shape{"OneLane", 0.4, -1.0 / 40.0, 14.0, 1, 3.5},
                                            Shape{"OneLaneToTheLeft", -0.4, 1.0 / 40.0, 14.0, 1, 3.5},
-                                           Shape{"TwoLanes", 0.4, -1.0 / 40.0, 20.0, 2, 3.5},
                                            Shape{"TwoLanesToTheLeft", -0.4, 1.0 / 45.0, 20.0, 2, 3.25}),
                          [](const auto& shape) { return std::string(shape.param.name); });
 

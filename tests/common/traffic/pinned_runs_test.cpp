@@ -180,13 +180,13 @@ INSTANTIATE_TEST_SUITE_P(
                       PinnedRun{"town", 24, 11, 1, kFull, 0.01, 10.0, With::kCar, "3d3c4300fcbca129"},
                       PinnedRun{"crossing", 12, 12, 1, kFull, 0.02, 20.0, With::kMotors, "7167a66b7488cf23"},
                       PinnedRun{"town", 60, 13, 1, kPlanar, 0.05, 180.0, With::kPeople, "3213b66667ca3162"},
-                      PinnedRun{"crossing", 60, 14, 1, kPlanar, 0.05, 180.0, With::kFlows, "92431274aad95797"},
+                      PinnedRun{"crossing", 60, 14, 1, kPlanar, 0.05, 180.0, With::kFlows, "ae5a9ec730dcbee1"},
                       PinnedRun{"exit", 60, 15, 1, kPlanar, 0.05, 270.0, With::kRoute, "4e3afd58d4c825e3"},
                       PinnedRun{"n222.yaml", 60, 16, 1, kPlanar, 0.05, 270.0, With::kUnequal, "cc6bf426162fa14c"},
                       PinnedRun{"n222.yaml", 40, 17, 1, kPlanar, 0.02, 120.0, With::kCar, "6e4b244c309f3a75"},
                       PinnedRun{"motorway.yaml", 100, 18, 1, kPlanar, 0.05, 180.0, With::kUnequal, "c18509a8532fffff"},
                       PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "29397067762341ff"},
-                      PinnedRun{"town", 40, 20, 1, kPlanar, 0.02, 120.0, With::kCommands, "4dd3a422c80e3e7b"},
+                      PinnedRun{"town", 40, 20, 1, kPlanar, 0.02, 120.0, With::kCommands, "234a7700468def9e"},
                       PinnedRun{"ring", 20, 21, 1, kPlanar, 0.1, 270.0, With::kRestore, "90880442613be2b6"}));
 
 }  // namespace
