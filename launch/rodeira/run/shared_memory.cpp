@@ -2,12 +2,17 @@
 #include "launch/rodeira/run/shared_memory.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <cctype>
 #include <fstream>
+#include <sstream>
+
+#include "launch/rodeira/run/processes.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -53,20 +58,38 @@ std::string GroupOf(std::string name) {
   return name;
 }
 
+// The process that has locked the file by flock(2), by proc_locks(5); below 1: none, or of another container.
+pid_t LockOwner(int file) {
+  struct stat info {};
+  if (::fstat(file, &info) != 0) return -1;
+  const std::string inode = fmt::format("{:02x}:{:02x}:{}", major(info.st_dev), minor(info.st_dev), info.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, is_mandatory, access, place;
+    pid_t owner = -1;
+    words >> number >> kind >> is_mandatory >> access >> owner >> place;
+    if (words && kind == "FLOCK" && place == inode) return owner;
+  }
+  return -1;
+}
+
 // Fast DDS locks a file beside each segment and port as long as it lives: this tells of processes too that /proc does
 // not show, in a container with the same /dev/shm.
 bool IsLocked(const std::filesystem::path& folder, const std::string& group) {
-  for (const char* end : {"_el", "_sl"}) {
-    const int file = ::open((folder / (group + end)).c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) continue;
-    const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0;
-    ::close(file);
-    if (locked) return true;
-  }
-  return false;
+  return IsLockedByLiving(folder / (group + "_el")) || IsLockedByLiving(folder / (group + "_sl"));
 }
 
 }  // namespace
+
+bool IsLockedByLiving(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool is_locked = ::flock(file, LOCK_EX | LOCK_NB) != 0;
+  const pid_t owner = is_locked ? LockOwner(file) : -1;
+  ::close(file);
+  return is_locked && !(owner > 0 && KilledBy(owner) != 0);
+}
 
 std::set<std::string> SharedMemoryFiles(const std::filesystem::path& folder) {
   std::set<std::string> names;
