@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
     LaunchFiles, PinnedRuns,
     ::testing::Values(PinnedRun{"demo.yaml", "2505b58430c63d34"}, PinnedRun{"first_drive.yaml", "29aa6c40f861ad31"},
                       PinnedRun{"scripted.yaml", "762c30527b10ef14"}, PinnedRun{"car_ahead.yaml", "28687a59046a5daf"},
-                      PinnedRun{"rain.yaml", "ae7263a403afaa4d"}, PinnedRun{"lights.yaml", "e7be35f4aa5e8f5a"}));
+                      PinnedRun{"rain.yaml", "ae7263a403afaa4d"}, PinnedRun{"lights.yaml", "fa3c35f156b02d8c"}));
 
 struct PinnedTraffic {
   const char* map;
