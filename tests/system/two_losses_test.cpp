@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -104,8 +105,9 @@ class TwoLosses : public testing::Test {
   void RunWith(const std::vector<Loss>& losses, const std::string& number) {
     const std::string what = number + TextOf(losses), run_name = fmt::format("losses-{}-struck", ::getpid());
     SCOPED_TRACE(what);
+    std::filesystem::remove(File("struck"));
     Started run(Command("struck", "2"));
-    ASSERT_TRUE(Runs(run_name));
+    ASSERT_TRUE(Runs(run_name)) << run.Wait(0s).out;
     const auto begin = std::chrono::steady_clock::now();
     for (const Loss& loss : losses) {
       std::this_thread::sleep_until(begin + loss.at);
