@@ -11,7 +11,6 @@
 #include <optional>
 #include <sstream>
 
-#include "common/runtime/dds/clock_silence_limit.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/run.hpp"
@@ -30,7 +29,8 @@ namespace topics = idl::topics;
 using lockstep::NodeIndex;
 using lockstep::Phase;
 
-constexpr auto kClosingTime = 3s;  // from an abort to the closing words
+constexpr auto kClockSilence = 3s;  // as the nodes' own (NodeBus::Settings)
+constexpr auto kClosingTime = 3s;   // from an abort to the closing words
 
 // On a PC where the clock does not run: an observer of grants and reports that says what the clock says there, so that
 // `rodeira run` shows the same and ends with the same status. Its own word goes to the clock only as the failure of a
@@ -38,11 +38,7 @@ constexpr auto kClosingTime = 3s;  // from an abort to the closing words
 class Follower {
  public:
   Follower(const launch::Launch& launch, const ProcessOptions& options)
-      : launch_(launch),
-        roster_(launch.roster()),
-        options_(options),
-        clock_silence_(ClockSilenceLimit(launch)),
-        reports_(roster_.nodes().size()) {}
+      : launch_(launch), roster_(launch.roster()), options_(options), reports_(roster_.nodes().size()) {}
 
   int Run() {
     auto participant = Participant::Open(DomainOf(options_, launch_, "follower on " + options_.follow));
@@ -141,10 +137,10 @@ class Follower {
         Say("fault {}", OneLine(now.grant.reason));
       }
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
-      if (!aborted_at && WallClock::now() - now.heard_at > clock_silence_) {
+      if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
         return Complain(base::Failed(
             "run.clock_lost", fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                                          std::chrono::duration<double>(clock_silence_).count())));
+                                          std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
       TellIncarnations(now);
@@ -263,7 +259,6 @@ class Follower {
   const launch::Launch& launch_;
   const lockstep::Roster& roster_;
   const ProcessOptions& options_;
-  const std::chrono::milliseconds clock_silence_;
   SupervisorPipe supervisor_;
   bool met_ = false;
   std::optional<WallClock::time_point> began_;
