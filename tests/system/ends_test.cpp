@@ -197,8 +197,14 @@ class Ends : public ::testing::Test {
   const std::string& UndisturbedDigest(const std::string& part) {
     std::string& digest = undisturbed_[kOtherParts.contains(part) ? part : ""];
     if (!digest.empty()) return digest;
-    std::vector<std::string> command{Bin("rodeira"), "run",      LaunchFile("first_drive.yaml"),         "--for", "4",
-                                     "--in-process", "--record", (folder_.path() / "calm.mcap").string()};
+    std::vector<std::string> command{Bin("rodeira"),
+                                     "run",
+                                     LaunchFile("first_drive.yaml"),
+                                     "--for",
+                                     "4",
+                                     "--in-process",
+                                     "--record",
+                                     (folder_.path() / fmt::format("calm-{}.mcap", undisturbed_.size())).string()};
     const auto settings = kOtherParts.contains(part) ? SettingsOf(part) : std::vector<std::string>();
     command.insert(command.end(), settings.begin(), settings.end());
     const Ended calm = RunCommand(command);

@@ -115,19 +115,20 @@ TEST(BesideOneAnother, ANodeProgramStartedASecondTimeByHandEndsTheRun) {
 
 class TwoUsers : public ::testing::Test {
  protected:
-  static constexpr int kOther = 61234;  // an id of no user
+  // An id of no user, and of no test beside this one: limits count all processes of a user.
+  const int other_ = 61'000 + static_cast<int>(::getpid() % 4'000);
   static constexpr std::uint32_t kDomain = 219;
 
   void SetUp() override {
     if (::geteuid() != 0) GTEST_SKIP() << "only root may start processes of another user";
-    ASSERT_EQ(::chown(folder_.path().c_str(), kOther, kOther), 0);
+    ASSERT_EQ(::chown(folder_.path().c_str(), other_, other_), 0);
     if (RunCommand(AsOther({"/usr/bin/test", "-x", Bin("rodeira")})).status != 0)
       GTEST_SKIP() << "another user may not execute " << Bin("rodeira");
   }
   void TearDown() override { cli::RemoveLeftOvers({}); }
 
   Words AsOther(const Words& command) const {
-    const std::string id = std::to_string(kOther), home = folder_.path().string();
+    const std::string id = std::to_string(other_), home = folder_.path().string();
     return Joined({"/usr/bin/env", "-u", "XDG_RUNTIME_DIR", "HOME=" + home, "XDG_DATA_HOME=" + home, "/usr/bin/setpriv",
                    "--reuid", id, "--regid", id, "--clear-groups"},
                   command);

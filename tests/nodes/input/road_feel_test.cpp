@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kSpeed_mps = 20.0;
 constexpr int kPeriod_steps = 10;  // of an input node
+constexpr double kOnLane_m = 1.0;  // a car 1.8 m wide on a lane of 4 m
 
 struct Seen {
   double time_s, s_m, aside_m;
@@ -86,7 +87,7 @@ TEST(RoadFeel, ARoughRoadIsFeltWithTheWheelStraightAndASmoothOneIsNot) {
   ASSERT_GT(drive.back().s_m, 450.0);
   for (const Seen& seen : drive) {
     if (seen.s_m > 450.0) break;
-    ASSERT_NEAR(seen.aside_m, 0.0, 0.5) << "on its lane at " << seen.s_m;
+    ASSERT_NEAR(seen.aside_m, 0.0, kOnLane_m) << "on its lane at " << seen.s_m;
     ASSERT_NEAR(seen.car.speed_mps, kSpeed_mps, 5.0) << seen.s_m;
   }
   input_devices::ForceSettings settings;
