@@ -4,9 +4,13 @@
 closed town, a queue at a light, a turn, a roundabout's entry.
 
     tools/compare_sumo.py [four | town | queue | turn | roundabout]...     default: all; needs Debian's package `sumo`
+    tools/compare_sumo.py networks [--rodeira PROGRAM] [--settings FILE] [--only NAME]...
+                                                both programs on netgenerate's networks, as a table
 
 Each network is made by netconvert or netgenerate. Each number is counted from SUMO's own output, in a temporary folder.
 """
+import argparse
+import csv
 import math
 import os
 import pathlib
@@ -190,15 +194,104 @@ def roundabout(folder):
         )
 
 
+def need_sumo():
+    if not all(shutil.which(tool) for tool in ("sumo", "netconvert", "netgenerate")):
+        sys.exit("compare_sumo.py: SUMO is not installed (package sumo)")
+    os.environ.setdefault("SUMO_HOME", "/usr/share/sumo")  # where Debian puts its types
+
+
+# By netgenerate's own lengths, speeds, kinds of junction; half of random networks' size.
+NETWORKS = {
+    "grid": ["--grid"],
+    "grid of 8": ["--grid", "--grid.number", "8"],
+    "grid, two lanes": ["--grid", "--default.lanenumber", "2"],
+    "spider": ["--spider"],
+    "spider, five arms": ["--spider", "--spider.arm-number", "5", "--spider.circle-number", "4"],
+    "random 1": ["--rand", "--rand.iterations", "200", "--seed", "1"],
+    "random 2": ["--rand", "--rand.iterations", "200", "--seed", "2"],
+    "random 3": ["--rand", "--rand.iterations", "200", "--seed", "3"],
+}
+WARM_S, UNTIL_S, PER_KM = 60, 360, 8
+
+
+def random_ways(root, count, edges_each):
+    """Ways for cars that stay on the road; back only at dead ends. Lane's kilometres."""
+    length_m, onward = {}, {}
+    for edge in root.iter("edge"):
+        if edge.get("function") != "internal":
+            length_m[edge.get("id")] = [float(lane.get("length")) for lane in edge.iter("lane")]
+    turn, back = {edge: [] for edge in length_m}, {edge: [] for edge in length_m}
+    for connection in root.iter("connection"):
+        if connection.get("from") in length_m:
+            into = back if connection.get("dir") == "t" else turn
+            into[connection.get("from")].append(connection.get("to"))
+    onward = {edge: turn[edge] or back[edge] for edge in length_m}
+    draws, edges = random.Random(1), sorted(length_m)
+    km = sum(sum(lanes) for lanes in length_m.values()) / 1000
+    ways = []
+    for _ in range(round(count * km)):
+        way = [draws.choice(edges)]
+        while len(way) < edges_each and onward[way[-1]]:
+            way.append(draws.choice(onward[way[-1]]))
+        ways.append(way)
+    return ways, km
+
+
+def networks(folder, rodeira, only, more=()):
+    """Mean speed and vehicle kilometres an hour and lane's kilometre, the first minute left out."""
+    print("| network | lane km | cars | SUMO m/s | Rodeira m/s | SUMO veh/h | Rodeira veh/h | ratio |")
+    print("|---|---|---|---|---|---|---|---|")
+    for name, words in NETWORKS.items():
+        if only and name not in only:
+            continue
+        run(folder, "netgenerate", *words, "-o", "net.xml", "--opendrive-output", "net.xodr")
+        ways, km = random_ways(xml.parse(folder / "net.xml").getroot(), PER_KM, 200)
+        write(folder, "routes.xml", "<routes>" + "\n".join(
+            f'<vehicle id="{number}" depart="0" departPos="random_free" departSpeed="avg">'
+            f'<route edges="{" ".join(way)}"/></vehicle>' for number, way in enumerate(ways)) + "</routes>")
+        sumo(folder, 0.1, UNTIL_S, "--fcd-output", "fcd.xml", "--device.fcd.period", 1)
+        seen, there = 0.0, 0
+        for _, step in xml.iterparse(folder / "fcd.xml"):
+            if step.tag == "timestep":
+                if float(step.get("time")) >= WARM_S:
+                    speeds = [float(car.get("speed")) for car in step.iter("vehicle")]
+                    seen, there = seen + sum(speeds), there + len(speeds)
+                step.clear()
+        steps = UNTIL_S - WARM_S
+        done = subprocess.run([rodeira, "traffic", "run", "net.xodr", "--vehicles", str(len(ways)), "--for",
+                               str(UNTIL_S), "--step", "0.1", "--warm", str(WARM_S), "--csv", "csv", "--rows-every",
+                               "1", "--force", *more], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"compare_sumo.py: {name}: rodeira ended with status {done.returncode}: {done.stderr[-500:]}")
+        own, own_there = 0.0, 0
+        with (folder / "csv" / "trajectories.csv").open(newline="") as rows:
+            for row in csv.DictReader(rows):
+                if float(row["time_s"]) >= WARM_S:
+                    own, own_there = own + float(row["speed_mps"]), own_there + 1
+        theirs, ours = seen / max(1, there), own / max(1, own_there)
+        flow, own_flow = (3.6 * total / steps / km for total in (seen, own))
+        print(f"| {name} | {km:.1f} | {len(ways)} | {theirs:.2f} | {ours:.2f} | {flow:.0f} | {own_flow:.0f} | "
+              f"{ours / theirs:.2f} |", flush=True)
+
+
 def main():
+    if sys.argv[1:2] == ["networks"]:
+        parser = argparse.ArgumentParser(prog="compare_sumo.py networks")
+        parser.add_argument("--rodeira", default=str(pathlib.Path(__file__).parent.parent / "build/bin/rodeira"))
+        parser.add_argument("--only", action="append")
+        parser.add_argument("--settings", help="traffic file for Rodeira's drivers")
+        options = parser.parse_args(sys.argv[2:])
+        need_sumo()
+        with tempfile.TemporaryDirectory() as folder:
+            networks(pathlib.Path(folder), str(pathlib.Path(options.rodeira).resolve()), options.only,
+                     ["--settings", str(pathlib.Path(options.settings).resolve())] if options.settings else [])
+        return
     wishes = {"four": four, "town": town, "queue": queue, "turn": turn, "roundabout": roundabout}
     asked = sys.argv[1:] or list(wishes)
     for wish in asked:
         if wish not in wishes:
             sys.exit(f"compare_sumo.py: '{wish}' was asked for; {', '.join(wishes)} were expected")
-    if not all(shutil.which(tool) for tool in ("sumo", "netconvert", "netgenerate")):
-        sys.exit("compare_sumo.py: SUMO is not installed (package sumo)")
-    os.environ.setdefault("SUMO_HOME", "/usr/share/sumo")  # where Debian puts its types
+    need_sumo()
     for wish in asked:
         with tempfile.TemporaryDirectory() as folder:
             wishes[wish](pathlib.Path(folder))

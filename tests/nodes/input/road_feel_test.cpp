@@ -88,7 +88,7 @@ TEST(RoadFeel, ARoughRoadIsFeltWithTheWheelStraightAndASmoothOneIsNot) {
   for (const Seen& seen : drive) {
     if (seen.s_m > 450.0) break;
     ASSERT_NEAR(seen.aside_m, 0.0, kOnLane_m) << "on its lane at " << seen.s_m;
-    ASSERT_NEAR(seen.car.speed_mps, kSpeed_mps, 5.0) << seen.s_m;
+    ASSERT_NEAR(seen.car.speed_mps, kSpeed_mps, 6.0) << seen.s_m;
   }
   input_devices::ForceSettings settings;
   const double smooth = Felt_Nm(drive, settings, 175.0, 195.0), a = Felt_Nm(drive, settings, 60.0, 150.0),
