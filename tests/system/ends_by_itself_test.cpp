@@ -31,18 +31,8 @@ const std::map<std::string, std::string> kCauses = {
     {"an error of its step", "failure"}, {"exit(0)", "exit_0"},  {"exit(1)", "exit_1"}, {"an exception", "exception"},
     {"a failed assertion", "assertion"}, {"no memory", "memory"}};
 
-struct Row {
-  std::string cause, message;
-  std::array<std::string, kPolicies.size()> outcomes;
-};
-
-std::vector<Row> ReadRows() {
-  std::vector<Row> rows;
-  for (const std::vector<std::string>& columns : EndsTableLines()) {
-    if (columns.size() == 6 && kCauses.contains(columns[1]))
-      rows.push_back({columns[1], columns[2], {columns[3], columns[4], columns[5]}});
-  }
-  return rows;
+std::vector<EndsRow> ReadRows() {
+  return EndsRowsOf([](const std::string& cause) { return kCauses.contains(cause); });
 }
 
 class EndsByItself : public testing::TestWithParam<std::string> {
@@ -73,8 +63,8 @@ class EndsByItself : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(EndsByItself, AsTheTableSays) {
-  const std::vector<Row> rows = ReadRows();
-  const auto row = std::ranges::find(rows, GetParam(), &Row::cause);
+  const std::vector<EndsRow> rows = ReadRows();
+  const auto row = std::ranges::find(rows, GetParam(), &EndsRow::cause);
   ASSERT_EQ(rows.size(), kCauses.size()) << "docs/reference/ends.md";
   ASSERT_NE(row, rows.end()) << GetParam();
   const Ended calm = RunCommand(Command(fmt::format("by-itself-{}-calm", ::getpid()), {}));

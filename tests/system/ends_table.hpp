@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -26,6 +27,23 @@ inline std::vector<std::vector<std::string>> EndsTableLines() {
     }
   }
   return lines;
+}
+
+// A row of a cause, without a column for the part: outcomes by policy, as `stop`, `pause`, `restart`.
+struct EndsRow {
+  std::string cause, message;
+  std::array<std::string, 3> outcomes;
+};
+
+// The rows of the causes for which is_wanted(cause).
+template <class Wanted>
+std::vector<EndsRow> EndsRowsOf(const Wanted& is_wanted) {
+  std::vector<EndsRow> rows;
+  for (const std::vector<std::string>& columns : EndsTableLines()) {
+    if (columns.size() == 6 && is_wanted(columns[1]))
+      rows.push_back({columns[1], columns[2], {columns[3], columns[4], columns[5]}});
+  }
+  return rows;
 }
 
 }  // namespace rodeira::system_test

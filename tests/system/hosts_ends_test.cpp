@@ -49,18 +49,9 @@ const std::map<std::string, Cause> kCauses = {
     {"LeftLosesPower", {"left: no power", 0, What::kLosePower}},
     {"LeftShutsDown", {"left: shut down, started again", 0, What::kShutDown}}};
 
-struct Row {
-  std::string cause, message;
-  std::array<std::string, kPolicies.size()> outcomes;
-};
-
-std::vector<Row> ReadRows() {
-  std::vector<Row> rows;
-  for (const std::vector<std::string>& columns : EndsTableLines()) {
-    if (columns.size() == 6 && (columns[1].starts_with("left: ") || columns[1].starts_with("right: ")))
-      rows.push_back({columns[1], columns[2], {columns[3], columns[4], columns[5]}});
-  }
-  return rows;
+std::vector<EndsRow> ReadRows() {
+  return EndsRowsOf(
+      [](const std::string& cause) { return cause.starts_with("left: ") || cause.starts_with("right: "); });
 }
 
 class TwoHosts : public testing::Test {
@@ -145,9 +136,9 @@ class HostsEnds : public TwoHosts, public testing::WithParamInterface<std::strin
 TEST_P(HostsEnds, AreThoseOfTheTable) {
   const struct Cause& cause = kCauses.at(GetParam());
   if (cause.lasts > 10s && !IsLongForm()) GTEST_SKIP() << "a long form (RODEIRA_LONG_TESTS)";
-  const std::vector<Row> rows = ReadRows();
+  const std::vector<EndsRow> rows = ReadRows();
   ASSERT_EQ(rows.size(), kCauses.size()) << "docs/reference/ends.md";
-  const auto row = std::ranges::find(rows, cause.in_table, &Row::cause);
+  const auto row = std::ranges::find(rows, cause.in_table, &EndsRow::cause);
   ASSERT_NE(row, rows.end()) << cause.in_table;
   for (std::size_t p = 0; p < kPolicies.size(); ++p) {
     const std::string policy = kPolicies[p], outcome = row->outcomes[p];

@@ -70,18 +70,9 @@ const std::map<std::string, std::vector<std::string>> kWrongInput = {
      {"--set", "world=" + SourceDir() + "/configs/worlds/n222.yaml", "--set",
       "nodes.ego.config.start={x_m: 0, y_m: 1e6}"}}};
 
-struct Row {
-  std::string cause, message;
-  std::array<std::string, kPolicies.size()> outcomes;
-};
-
-std::vector<Row> ReadRows() {
-  std::vector<Row> rows;
-  for (const std::vector<std::string>& columns : EndsTableLines()) {
-    if (columns.size() == 6 && (kWrongSamples.contains(columns[1]) || kWrongInput.contains(columns[1])))
-      rows.push_back({columns[1], columns[2], {columns[3], columns[4], columns[5]}});
-  }
-  return rows;
+std::vector<EndsRow> ReadRows() {
+  return EndsRowsOf(
+      [](const std::string& cause) { return kWrongSamples.contains(cause) || kWrongInput.contains(cause); });
 }
 
 // A program of the run's domain that is not of the run: what it hears of a source it publishes again, changed.
@@ -139,9 +130,9 @@ class WrongSamples : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(WrongSamples, EndARunAsTheTableSays) {
-  const std::vector<Row> rows = ReadRows();
+  const std::vector<EndsRow> rows = ReadRows();
   ASSERT_EQ(rows.size(), kWrongSamples.size() + kWrongInput.size()) << "docs/reference/ends.md";
-  const auto row = std::ranges::find(rows, GetParam(), &Row::cause);
+  const auto row = std::ranges::find(rows, GetParam(), &EndsRow::cause);
   ASSERT_NE(row, rows.end()) << GetParam();
   const std::string four =
       folder_

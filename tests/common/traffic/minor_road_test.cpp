@@ -86,6 +86,17 @@ class Crossroads {
 
 constexpr driver::SmoothSettings kAtOnce{1e6, 1e6};  // as the theory's drivers, who brake and start without any time
 
+// Exponential gaps, from 60 s on.
+std::vector<double> RandomArrivals(double mean_gap_s, double until_s) {
+  std::mt19937 random(7);
+  std::vector<double> arrivals;
+  for (double t = 60.0; t < until_s;) {
+    t -= mean_gap_s * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
+    arrivals.push_back(t);
+  }
+  return arrivals;
+}
+
 // Siegloch: n cars use a gap of t0 + n tf, found from single gaps in a dense stream. Random gaps of a flow q then let
 // (1/tf) exp(-q t0) cross (Siegloch 1973).
 TEST(MinorRoad, AMinorRoadCarriesWhatItsOwnGapsSay) {
@@ -114,12 +125,7 @@ TEST(MinorRoad, AMinorRoadCarriesWhatItsOwnGapsSay) {
   RecordProperty("follow_up_s", std::to_string(follow_up));
   RecordProperty("critical_gap_s", std::to_string(zero + 0.5 * follow_up));
   for (const double flow_per_h : BriefOrLong<std::vector<double>>({200.0, 600.0}, {200.0, 400.0, 600.0})) {
-    std::mt19937 random(7);
-    std::vector<double> arrivals;
-    for (double t = 60.0; t < kRandomFor_s;) {
-      t -= 3600.0 / flow_per_h * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
-      arrivals.push_back(t);
-    }
+    const std::vector<double> arrivals = RandomArrivals(3600.0 / flow_per_h, kRandomFor_s);
     const auto passed = Crossroads::Crossed(arrivals, kRandomFor_s, kAtOnce);
     const double measured =
         static_cast<double>(std::count_if(passed.begin(), passed.end(), [](double t) { return t > 60.0; })) * 3600.0 /
@@ -133,12 +139,7 @@ TEST(MinorRoad, AMinorRoadCarriesWhatItsOwnGapsSay) {
 // cars (Crossed looks at each step), and no fewer than four fifths of those cross.
 TEST(MinorRoad, SmoothDriversCrossAsSafely) {
   const double kFor_s = BriefOrLong(1500.0, 2400.0);
-  std::mt19937 random(7);
-  std::vector<double> arrivals;
-  for (double t = 60.0; t < kFor_s;) {
-    t -= 6.0 * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
-    arrivals.push_back(t);
-  }
+  const std::vector<double> arrivals = RandomArrivals(6.0, kFor_s);
   EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s).size(),
             Crossroads::Crossed(arrivals, kFor_s, kAtOnce).size() * 4 / 5);
 }
@@ -147,12 +148,7 @@ TEST(MinorRoad, SmoothDriversCrossAsSafely) {
 // it then needs.
 TEST(MinorRoad, CloseFollowersCrossAsSafely) {
   const double kFor_s = BriefOrLong(1500.0, 2400.0);
-  std::mt19937 random(7);
-  std::vector<double> arrivals;
-  for (double t = 60.0; t < kFor_s;) {
-    t -= 6.0 * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
-    arrivals.push_back(t);
-  }
+  const std::vector<double> arrivals = RandomArrivals(6.0, kFor_s);
   EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s, {}, 1.0).size(),
             Crossroads::Crossed(arrivals, kFor_s).size() * 4 / 5);
 }
