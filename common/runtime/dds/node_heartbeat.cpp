@@ -55,7 +55,7 @@ bool NodeBus::CanHear(bool held_up) const {
 void NodeBus::LookAtAddressSpace(const lockstep::Grant& grant) {
   const bool waits = grant.through < 0 && !grant.abort && WallClock::now() - opened_ > kStartsLong;
   if (!waits || settings_.domain.transport != launch::Transport::kSharedMemory) return;
-  if (const auto status = CheckAddressSpace(settings_.domain.segment_kib); !status)
+  if (const auto status = CheckAddressSpace(settings_.domain.largest_segment_kib); !status)
     EndEarly(LifeEvent::kFailed, status.error().Text());
 }
 

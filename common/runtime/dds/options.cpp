@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "common/runtime/launch/pace.hpp"
+#include "common/runtime/launch/segments.hpp"
 
 namespace rodeira::dds {
 namespace {
@@ -93,7 +94,8 @@ ParsedOptions ParseOptions(const std::string& program, ProgramOf of, int argc, c
   return parsed;
 }
 
-DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name) {
+DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name,
+                        std::span<const lockstep::NodeIndex> nodes) {
   return {options.domain,
           options.run,
           name,
@@ -103,6 +105,7 @@ DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& lau
           launch.keeps_for_restarts(),
           options.incarnation > 0 || !options.incarnations.empty(),
           launch.transport_settings().has_observers,
+          launch::SegmentKibOf(launch, nodes),
           launch.transport_settings().segment_kib,
           launch.topics()};
 }

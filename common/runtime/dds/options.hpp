@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/core/base/result.hpp"
@@ -46,6 +47,8 @@ ParsedOptions ParseOptions(const std::string& program, ProgramOf of, int argc, c
 // In place of the clock where options.follow is set (run_follower.cpp); the exit status comes back.
 int FollowClock(const launch::Launch& launch, const ProcessOptions& options);
 
-DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name);
+// Of the process of these nodes; without nodes: of the clock or a follower. `name`: of the participant, for people.
+DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name,
+                        std::span<const lockstep::NodeIndex> nodes = {});
 
 }  // namespace rodeira::dds

@@ -34,8 +34,9 @@ struct DomainSettings {
   bool meets_later = false;       // processes may be started again in the midst of the run
   bool is_restarted = false;      // of a process that has died: takes none of its places in shared memory
   bool has_observers = false;     // with shared memory: samples also go over UDP, for programs that are not Rodeira's
-  std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;  // of shared memory
-  idl::TopicTable topics = {};                                         // names and types of the topics
+  std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;          // of shared memory, this process'
+  std::uint32_t largest_segment_kib = launch::TransportSettings::kSegmentKib;  // that of any process of the run
+  idl::TopicTable topics = {};                                                 // names and types of the topics
   // Endpoints of this process reach each other by calls within a write; false: by the transport, on a receive thread.
   bool delivers_within = true;
 };

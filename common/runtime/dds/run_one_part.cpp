@@ -31,7 +31,7 @@ int RunOnePart(const std::string& program, std::string_view kind, int argc, char
                                               options.node, kind),
                                   options.launch_file));
   }
-  const DomainSettings domain = DomainOf(options, launch.value(), options.node);
+  const DomainSettings domain = DomainOf(options, launch.value(), options.node, {&index, 1});
   auto participant = Participant::Open(domain);
   if (!participant) return base::PrintError(program, participant.error());
   const auto part = open({launch.value(), *participant.value(), domain}, index, options.incarnation);

@@ -120,7 +120,7 @@ int RunSharedProcess(std::string_view program, int argc, char** argv, const Shar
                          fmt::format("--process {}: no node of the launch file has this process", options.process),
                          options.launch_file));
   }
-  DomainSettings domain = DomainOf(options, launch.value(), options.process);
+  DomainSettings domain = DomainOf(options, launch.value(), options.process, nodes);
   domain.delivers_within = false;
   auto participant = Participant::Open(domain);
   if (!participant) return base::PrintError(program, participant.error());

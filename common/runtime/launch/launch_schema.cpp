@@ -82,7 +82,7 @@ const std::vector<config::Key>& TransportKeys() {
       WordKey("kind", {"shared_memory", "udp"}, "shared_memory", "`udp`: between PCs."),
       WordKey("observers", {"none", "udp"}, "none", "`udp`: samples also reach other programs."),
       config::IntegerKey("segment_kib", TransportSettings::kMinSegmentKib, std::int64_t{1} << 20,
-                         TransportSettings::kSegmentKib, "Shared memory of each process; not with `udp`.")};
+                         TransportSettings::kSegmentKib, "Most shared memory of a process; not with `udp`.")};
   return keys;
 }
 

@@ -16,7 +16,7 @@ struct TransportSettings {
 
   Transport kind = Transport::kSharedMemory;
   bool has_observers = false;               // samples also go over UDP, for programs that are not Rodeira's
-  std::uint32_t segment_kib = kSegmentKib;  // of shared memory, for each process
+  std::uint32_t segment_kib = kSegmentKib;  // of shared memory, at most, for a process (SegmentKibOf)
 };
 
 // `transport: KIND`, or `transport: {kind, observers, segment_kib}`, of a launch file.

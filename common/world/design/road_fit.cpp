@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,7 @@ std::vector<Across> Sample(std::size_t index, const network::Road& road, std::sp
                              right = EdgeOf(spec, -static_cast<int>(spec.sections[0].right.size()));
   const int steps = std::max(1, static_cast<int>(std::min(std::ceil(road.length_m() / kFitStep_m), kMaxSteps)));
   std::vector<Across> samples;
+  samples.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) {
     const double s = road.length_m() * i / steps;
     const bool in_piece = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
@@ -66,10 +68,10 @@ double LeftOf(const Vector3d& a, const Vector3d& b, const Vector2d& p) {
   return length > 0.0 ? (way.x() * to.y() - way.y() * to.x()) / length : -kFar_m;
 }
 
-// The road as quadrangles from station to station.
+// The road as quadrangles from station to station. The samples must outlive it.
 class Stretches {
  public:
-  explicit Stretches(std::vector<Across> samples) : samples_(std::move(samples)) {
+  explicit Stretches(std::span<const Across> samples) : samples_(samples) {
     for (const Across& sample : samples_) cell_m_ = std::max(cell_m_, (sample.left_W - sample.right_W).norm());
     for (std::size_t j = 0; j + 1 < samples_.size(); ++j) {
       const Across &here = samples_[j], &next = samples_[j + 1];
@@ -92,12 +94,14 @@ class Stretches {
       if (j + kOwnSteps > i && j < i + kOwnSteps) continue;
       const Across &here = samples_[j], &next = samples_[j + 1];
       const Vector2d p = edge_W.head<2>();
-      const bool within = LeftOf(here.right_W, next.right_W, p) > kTouches_m &&
-                          LeftOf(next.left_W, here.left_W, p) > kTouches_m &&
-                          LeftOf(here.left_W, here.right_W, p) > (j == 0 ? kSeam_m : 0.0) &&
-                          LeftOf(next.right_W, next.left_W, p) > (j + 2 == samples_.size() ? kSeam_m : 0.0);
+      // First what most of the others fail: they lie before or behind on the same road.
+      const bool within = LeftOf(here.left_W, here.right_W, p) > (j == 0 ? kSeam_m : 0.0) &&
+                          LeftOf(next.right_W, next.left_W, p) > (j + 2 == samples_.size() ? kSeam_m : 0.0) &&
+                          LeftOf(here.right_W, next.right_W, p) > kTouches_m &&
+                          LeftOf(next.left_W, here.left_W, p) > kTouches_m;
+      if (!within) continue;
       const double z = 0.25 * (here.right_W + here.left_W + next.right_W + next.left_W).z();
-      if (within && std::fabs(z - edge_W.z()) < network::Network::kLevel_m) return 0.5 * (here.s_m + next.s_m);
+      if (std::fabs(z - edge_W.z()) < network::Network::kLevel_m) return 0.5 * (here.s_m + next.s_m);
     }
     return std::nullopt;
   }
@@ -108,7 +112,7 @@ class Stretches {
             static_cast<std::int64_t>(std::floor(p.y() / cell_m_))};
   }
 
-  std::vector<Across> samples_;
+  std::span<const Across> samples_;
   double cell_m_ = kMinCell_m;
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
@@ -119,7 +123,7 @@ void CheckFits(std::size_t index, const RoadDesign& design, const network::Road&
                const TerrainIsAt& terrain_is_at) {
   const std::vector<Across> samples = Sample(index, road, pieces);
   const bool too_long = road.length_m() > kMaxSteps * kFitStep_m;
-  const Stretches stretches(too_long ? std::vector<Across>() : samples);
+  const Stretches stretches(too_long ? std::span<const Across>() : samples);
   const char* key = design.map.Has("points") ? "points" : "axis";
   bool left_terrain = !terrain_is_at, met_itself = too_long;
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "common/runtime/dds/network_state.hpp"
+#include "common/runtime/launch/segments.hpp"
 #include "common/runtime/launch/shared_process.hpp"
 #include "launch/rodeira/run/host_hold.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
@@ -19,12 +21,22 @@ constexpr std::uint32_t kMinSegmentKib = 1024;
 
 double Megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
-// The clock and the nodes. A process that is started again finds the files of the dead one, which others still use.
-int CountProcesses(const launch::Launch& launch, const Placement& placement) {
-  const auto nodes = std::ranges::count_if(launch::ProcessesOf(launch), [&](const launch::NodeProcess& process) {
-    return placement.Has(launch.node(process.nodes.front()));
-  });
-  return static_cast<int>(nodes) + (launch.keeps_for_restarts() ? 3 : 1);
+// The segments of the clock and of the nodes, KiB. A process that is started again finds the files of the dead one,
+// which others still use.
+std::vector<std::uint32_t> SegmentsOf(const launch::Launch& launch, const Placement& placement) {
+  std::vector<std::uint32_t> segments_kib(launch.keeps_for_restarts() ? 3 : 1, launch::SegmentKibOf(launch, {}));
+  for (const launch::NodeProcess& process : launch::ProcessesOf(launch)) {
+    if (placement.Has(launch.node(process.nodes.front())))
+      segments_kib.push_back(launch::SegmentKibOf(launch, process.nodes));
+  }
+  return segments_kib;
+}
+
+// Bytes of shared memory of processes with these segments, none of them larger than `most_kib`.
+std::uint64_t NeedOf(std::span<const std::uint32_t> segments_kib, std::uint32_t most_kib) {
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t segment_kib : segments_kib) bytes += dds::SharedMemoryNeed(std::min(segment_kib, most_kib));
+  return bytes;
 }
 
 // Over the loop-back interface: nothing of the run leaves this PC.
@@ -43,36 +55,40 @@ base::Status UseUdp(const launch::Launch& launch, const std::string& reason, Run
 }
 
 // What the processes need of shared memory is there, or smaller segments are, or UDP takes its place.
-base::Status FitSharedMemory(const launch::Launch& launch, int processes, const std::filesystem::path& folder,
-                             RunNetwork& network) {
-  const std::uint32_t wanted_kib = launch.transport_settings().segment_kib;
-  const auto need = [processes](std::uint32_t segment_kib) {
-    return static_cast<std::uint64_t>(processes) * dds::SharedMemoryNeed(segment_kib);
-  };
+base::Status FitSharedMemory(const launch::Launch& launch, std::span<const std::uint32_t> segments_kib,
+                             const std::filesystem::path& folder, RunNetwork& network) {
+  const std::uint32_t wanted_kib = std::ranges::max(segments_kib);
+  const auto need = [segments_kib](std::uint32_t most_kib) { return NeedOf(segments_kib, most_kib); };
   const auto room = dds::TryRoom(need(wanted_kib), folder);
   if (room.ok()) return {};
   const auto free_bytes = dds::FreeSharedMemory(folder);
   if (!free_bytes) return UseUdp(launch, free_bytes.error().Text(), network);
-  const std::string found = fmt::format("{} has {:.1f} MB free, {} processes need {:.1f} MB", folder.string(),
-                                        Megabytes(free_bytes.value()), processes, Megabytes(need(wanted_kib)));
+  const std::string found =
+      fmt::format("{} has {:.1f} MB free, {} processes need {:.1f} MB", folder.string(), Megabytes(free_bytes.value()),
+                  segments_kib.size(), Megabytes(need(wanted_kib)));
   launch::TransportSettings smaller = launch.transport_settings();
-  smaller.segment_kib = std::min(SegmentThatFits(free_bytes.value(), processes), wanted_kib);
+  smaller.segment_kib = SegmentThatFits(free_bytes.value(), segments_kib);
   if (smaller.segment_kib == 0 || !dds::TryRoom(need(smaller.segment_kib), folder).ok())
     return UseUdp(launch, found, network);
   network.overrides.emplace_back("transport", launch::TransportText(smaller));
-  network.note =
-      fmt::format("{}; each uses a segment of {} KiB instead of {} KiB", found, smaller.segment_kib, wanted_kib);
+  network.note = fmt::format("{}; each uses a segment of at most {} KiB instead of {} KiB", found, smaller.segment_kib,
+                             wanted_kib);
   return {};
 }
 
 }  // namespace
 
-std::uint32_t SegmentThatFits(std::uint64_t free_bytes, int processes) {
-  std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;
-  for (; segment_kib >= kMinSegmentKib; segment_kib -= kSegmentStepKib) {
-    if (static_cast<std::uint64_t>(processes) * dds::SharedMemoryNeed(segment_kib) <= free_bytes) return segment_kib;
+std::uint32_t SegmentThatFits(std::uint64_t free_bytes, std::span<const std::uint32_t> segments_kib) {
+  std::uint32_t most_kib = std::ranges::max(segments_kib);
+  for (; most_kib >= kMinSegmentKib; most_kib -= kSegmentStepKib) {
+    if (NeedOf(segments_kib, most_kib) <= free_bytes) return most_kib;
   }
   return 0;
+}
+
+std::uint32_t SegmentThatFits(std::uint64_t free_bytes, int processes) {
+  return SegmentThatFits(free_bytes, std::vector<std::uint32_t>(static_cast<std::size_t>(processes),
+                                                                launch::TransportSettings::kSegmentKib));
 }
 
 base::Result<RunNetwork> RunNetwork::Prepare(const RunOptions& options, const Placement& placement,
@@ -98,7 +114,7 @@ base::Result<RunNetwork> RunNetwork::Prepare(const RunOptions& options, const Pl
   if (const auto other = OtherUserOf(network.domain, place)) {
     status = UseUdp(launch, *other, network);
   } else {
-    status = FitSharedMemory(launch, CountProcesses(launch, placement), place.folder, network);
+    status = FitSharedMemory(launch, SegmentsOf(launch, placement), place.folder, network);
   }
   if (!status) return status.error();
   return network;

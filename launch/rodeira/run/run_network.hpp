@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/core/base/result.hpp"
@@ -14,8 +15,10 @@
 
 namespace rodeira::cli {
 
-// The segment of each of so many processes for which so many bytes of shared memory have room, in KiB; 0: there is no
-// room for any.
+// The largest segment, KiB, so that processes which want segments of `segments_kib` (at least one), none of them larger
+// than it, have room in so many bytes of shared memory; 0: there is no room.
+std::uint32_t SegmentThatFits(std::uint64_t free_bytes, std::span<const std::uint32_t> segments_kib);
+// The same for so many processes with segments of the default size.
 std::uint32_t SegmentThatFits(std::uint64_t free_bytes, int processes);
 
 // How the processes of a run on this PC reach each other: the domain that it holds, and what stands above the launch

@@ -144,6 +144,20 @@ TEST(SharedMemoryRoom, ASegmentFitsForEachProcess) {
   EXPECT_EQ(SegmentThatFits(0, 1), 0u);
 }
 
+// Processes that want less keep what they want; only the larger segments shrink.
+TEST(SharedMemoryRoom, OnlySegmentsAboveTheLargestThatFitsShrink) {
+  const std::vector<std::uint32_t> segments_kib{1024, 1024, 2048, 8192};
+  const auto need = [](std::uint32_t most_kib) {
+    return 2 * dds::SharedMemoryNeed(1024) + dds::SharedMemoryNeed(std::min(2048u, most_kib)) +
+           dds::SharedMemoryNeed(most_kib);
+  };
+  EXPECT_EQ(SegmentThatFits(need(8192), segments_kib), 8192u);
+  EXPECT_EQ(SegmentThatFits(need(8192) - 1, segments_kib), 7936u);
+  EXPECT_EQ(SegmentThatFits(need(1280), segments_kib), 1280u);
+  EXPECT_EQ(SegmentThatFits(need(1024), segments_kib), 1024u);
+  EXPECT_EQ(SegmentThatFits(need(1024) - 1, segments_kib), 0u);
+}
+
 TEST(SharedMemoryRoom, MoreThanTheFolderHasIsRefusedAndNothingIsLeft) {
   const TemporaryFolder folder;
   EXPECT_TRUE(dds::TryRoom(1'000'000, folder.path()).ok());
