@@ -22,7 +22,7 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
       settings_(settings),
       listens_(settings.incarnation == 0),
       batches_(roster, settings.node, settings.max_batch_bytes),
-      clock_silence_(settings.clock_silence.count()),
+      clock_silence_(settings.clock_silence.count(), settings.longest_gap.count()),
       safe_(settings.keeps_all && settings.incarnation > 0 ? lockstep::kUnknown : -1) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;

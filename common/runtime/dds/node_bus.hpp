@@ -41,7 +41,8 @@ class NodeBus final : public lockstep::Bus {
     std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{
-        3000};              // the clock repeats its grant all the time; silent this long it is gone
+        3000};  // the clock repeats its grant all the time; silent this long it is gone
+    std::chrono::milliseconds longest_gap{300};  // between two looks at it; the process was stopped in a longer one
     DomainSettings domain;  // of the participant; for another one that hears the clock while this one is held up
     LocalExchange* exchange = nullptr;  // with the nodes that share the process; null: there are none
     bool has_sink = false;              // one of them has a file to close

@@ -102,7 +102,7 @@ void NodeBus::Heartbeat() {
   while (!stop_) {
     // A step may run on the receiving thread: one that hangs keeps all further messages, also the clock's, waiting.
     const std::uint64_t done = messages_done_, begun = messages_begun_;
-    const bool was_stopped = WallClock::now() - looked > settings_.clock_silence / 10;
+    const bool was_stopped = WallClock::now() - looked > settings_.longest_gap;
     const bool held_up = begun == begun_before && begun != done;
     if (!held_up || !held_up_since_) held_up_since_ = held_up ? std::optional(looked) : std::nullopt;
     // Of a thread that receives for several nodes, the message of one keeps those of all waiting.

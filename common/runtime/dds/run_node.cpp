@@ -10,6 +10,7 @@
 
 #include "common/core/base/crash_trace.hpp"
 #include "common/core/base/wait.hpp"
+#include "common/runtime/dds/clock_silence_limit.hpp"
 #include "common/runtime/dds/hosted_part.hpp"
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/remote_ground.hpp"
@@ -209,6 +210,7 @@ class HostedNode final : public HostedPart {
     settings.keeps_all = host_.launch.keeps_for_restarts() && roster.node(index).keeps_snapshots();
     settings.exchange = host_.exchange;
     settings.has_sink = host_.has_sink;
+    settings.clock_silence = ClockSilenceLimit(host_.launch);
     auto bus = NodeBus::Open(host_.participant, roster, mailbox_, settings);
     if (!bus) return bus.error();
     bus_ = std::move(bus).value();

@@ -11,7 +11,9 @@ namespace rodeira::lockstep {
 // owner brings the wall time, in ms of any one clock, and locks.
 class ClockSilence {
  public:
-  explicit ClockSilence(std::int64_t limit_ms) : limit_ms_(limit_ms) {}
+  // `longest_gap_ms`: between two calls of IsSilent; the process did not run in a longer one.
+  ClockSilence(std::int64_t limit_ms, std::int64_t longest_gap_ms)
+      : limit_ms_(limit_ms), longest_gap_ms_(longest_gap_ms) {}
 
   void Heard(std::int64_t now_ms);
   // Called about every 25 ms. `receives`: since the last call messages could be received. False before the first
@@ -20,6 +22,7 @@ class ClockSilence {
 
  private:
   std::int64_t limit_ms_;
+  std::int64_t longest_gap_ms_;
   bool heard_ = false;
   std::int64_t silent_ms_ = 0;  // counted since the last message
   std::int64_t looked_ms_ = 0;  // the last call of IsSilent, or the message after it
