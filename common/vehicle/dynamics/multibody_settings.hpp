@@ -49,6 +49,7 @@ struct MultibodySettings {
   VehicleDimensions dimensions;
 };
 
+// Problems stay in the file's collection.
 MultibodySettings ReadMultibody(const config::Map& root);
 
 }  // namespace rodeira::dynamics
