@@ -21,6 +21,7 @@ class LocalExchange {
 
   // One of those nodes. The bus outlives all calls of Deliver.
   void Join(lockstep::NodeIndex node, NodeBus& bus);
+  // Whether the node, or the source's node, runs in this process.
   bool Has(lockstep::NodeIndex node) const { return is_here_[node]; }
   bool HasSource(lockstep::SourceIndex source) const { return Has(roster_.source(source).node); }
   // To all nodes of the process that are wired to the sample's source, on the calling thread.

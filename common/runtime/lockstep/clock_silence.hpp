@@ -13,6 +13,7 @@ class ClockSilence {
  public:
   explicit ClockSilence(std::int64_t limit_ms) : limit_ms_(limit_ms) {}
 
+  // A message of the clock has come.
   void Heard(std::int64_t now_ms);
   // Called about every 25 ms. `receives`: since the last call messages could be received. False before the first
   // message.

@@ -18,6 +18,7 @@ class KeptSamples {
  public:
   KeptSamples(const Roster& roster, NodeIndex node);
 
+  // Precondition: of a source of this node. A sample that is not newer than the source's newest one changes nothing.
   void Add(const Sample& sample);
   // Drops what no consumer can ask for once `grant` is said, not even a recorder that is started again.
   void Granted(const Grant& grant);
