@@ -25,6 +25,7 @@ class Incidents {
     if (sentences_.size() >= kMax) return;
     sentences_.push_back(Place(time_s, pose) + fmt::format(fmt::runtime(what), values...));
   }
+  // The id of the road that the vehicle is on.
   const std::string& RoadOf(const AgentPose& pose) const {
     return network_.roads()[static_cast<std::size_t>(pose.road)].id();
   }

@@ -25,7 +25,9 @@ class Occupancy {
 
   // Once for all of a step.
   void Clear();
+  // Behind Clear, in any order.
   void Add(std::uint32_t track, const Occupant& occupant) { added_.emplace_back(track, occupant); }
+  // Ends the adding; On and Beyond hold from then on.
   void Sort();
   // One more, after Sort. What On has given before holds no more.
   void Insert(std::uint32_t track, const Occupant& occupant);
