@@ -20,6 +20,7 @@ class DeclaredMap {
  public:
   DeclaredMap(Map map, const std::vector<Key>& keys) : map_(std::move(map)), keys_(&keys) {}
 
+  // The value, or the declared default. Where it is wrong: a problem in the file's collection, and the default.
   double Number(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedNumberKey.
   double Number(std::string_view key, double default_value) const;
@@ -72,6 +73,7 @@ class DeclaredList {
   std::size_t size() const { return list_.size(); }
   // An item that is a mapping.
   DeclaredMap At(std::size_t index) const;
+  // Precondition of both: the item's index is below size().
   double Number(std::size_t index) const;
   std::string Text(std::size_t index) const;
   // For problems and places.
