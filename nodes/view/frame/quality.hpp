@@ -12,8 +12,10 @@ enum class Quality { kLow, kMedium, kHigh };
 
 // "low", "medium", "high": as settings and options name them.
 std::span<const std::string_view> QualityNames();
+// Nothing for another name.
 std::optional<Quality> QualityOf(std::string_view name);
 
+// What a quality means for the drawing.
 struct QualityTraits {
   int samples = 0;            // a pixel, at most; 0: one, edges are steps
   float detail_scale = 1.0F;  // levels of detail change at so much smaller distances
