@@ -16,6 +16,7 @@ class WayAhead {
  public:
   explicit WayAhead(const lanes::Graph& graph) : graph_(graph) {}
 
+  // The line of a light on the way.
   struct Light {
     double d_m = 0.0;
     std::uint32_t controller = 0;  // index into the network's controllers
