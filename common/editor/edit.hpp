@@ -51,6 +51,7 @@ class Edit {
 // Changes a document and writes down how. A command first finds out whether it can be done, then does it all.
 class Recorder {
  public:
+  // The document outlives it.
   explicit Recorder(Document& document) : document_(document) {}
 
   // An index is that of the element in its list of the document.

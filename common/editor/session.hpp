@@ -47,7 +47,7 @@ class Session {
   }
   // SetPicture and Undo and Redo of it change the picture; all others are asked for through Do.
   bool SetPicture(std::string bytes, float scale);
-  // Both say what they did; without anything to take back they say so.
+  // Undo and Redo tell what they did, or that there is nothing to do.
   void Undo();
   void Redo();
 

@@ -104,7 +104,7 @@ void SaveOrAsk(Work& work, const Action& then = {});
 void AskToSave(Work& work, bool despite_errors, const Action& then = {});
 // At once, or, where something is unsaved, after asking whether to save it, to give it up, or to stay.
 void UnlessUnsaved(Work& work, Action act);
-// What is there is given up: called by UnlessUnsaved. So AskToOpen; AskToClose asks by itself.
+// NewMap and AskToOpen give up what is there: call them by UnlessUnsaved. AskToClose asks by itself.
 void NewMap(Work& work);
 void AskToOpen(Work& work);
 void AskToImport(Work& work);

@@ -27,6 +27,7 @@ struct LanePlace {
 // the position in the nearest driving lane, up to that lane's width beyond its edge; farther beside it is in none.
 class LaneFinder {
  public:
+  // The graph outlives it.
   explicit LaneFinder(const lanes::Graph& graph) : graph_(graph) {}
 
   // The nearest driving lane, at most a lane's width beside it; else nothing. The heading counts from east; the hint

@@ -39,6 +39,7 @@ inline constexpr double kNeighbourReach_m = 250.0;
 // Finds neighbours up to kNeighbourReach_m along the lanes. For one thread.
 class LeaderFinder {
  public:
+  // The graph outlives it.
   explicit LeaderFinder(const lanes::Graph& graph) : graph_(graph), finder_(graph) {}
 
   // Where the others are; for the next calls. Those beside the lanes are left out.

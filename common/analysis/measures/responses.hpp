@@ -26,7 +26,7 @@ enum class ResponseFlag {
   kCensored,      // none before the window ends: missing, never the window's length
   kNoSignal,      // a sample is missing
 };
-// One word, for tables.
+// In a few words, as the reason of a missing time.
 const char* NameOf(ResponseFlag flag);
 
 // Seconds after the event, which is the series' beginning; nothing where the flag says so.

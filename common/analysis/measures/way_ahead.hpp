@@ -14,6 +14,7 @@ namespace rodeira::measures {
 // The next junction and the next light on a way over the lane graph.
 class WayAhead {
  public:
+  // The graph outlives it.
   explicit WayAhead(const lanes::Graph& graph) : graph_(graph) {}
 
   // The line of a light on the way.

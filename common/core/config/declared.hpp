@@ -68,6 +68,7 @@ class DeclaredMap {
 // A list that is read by the declaration of its items.
 class DeclaredList {
  public:
+  // `item`, the declaration of each item, outlives it.
   DeclaredList(List list, const Key& item) : list_(std::move(list)), item_(&item) {}
 
   std::size_t size() const { return list_.size(); }

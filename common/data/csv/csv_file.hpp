@@ -22,7 +22,7 @@ class CsvFile {
 
   // To write into; Drain() empties it where it has grown.
   std::string& buffer() { return buffer_; }
-  // Failed where the disk refuses; so Close.
+  // Drain and Close fail where the disk refuses.
   base::Status Drain();
   // Everything is with the operating system.
   base::Status Close();

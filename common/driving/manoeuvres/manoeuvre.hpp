@@ -30,7 +30,7 @@ struct Outcome {
   const Figure* Find(std::string_view name) const;
 };
 
-// A standard manoeuvre with an open track.
+// One of these tests, by its name.
 struct Manoeuvre {
   std::string name;
   std::string what;  // for people, in a line

@@ -17,6 +17,7 @@ class NodeBus;
 // thread may call it.
 class LocalExchange {
  public:
+  // `nodes`: those of this process. The roster outlives it.
   LocalExchange(const lockstep::Roster& roster, const std::vector<lockstep::NodeIndex>& nodes);
 
   // One of those nodes. The bus outlives all calls of Deliver.

@@ -14,6 +14,7 @@ namespace rodeira::dds {
 // COMMAND".
 class OperatorCommands {
  public:
+  // Both outlive it.
   OperatorCommands(ClockRun& run, ClockLosses& losses) : run_(run), losses_(losses) {}
 
   // Does each line in order and says its answer on standard output.

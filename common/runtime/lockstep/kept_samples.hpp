@@ -16,6 +16,7 @@ namespace rodeira::lockstep {
 // seen by all. One thread at a time.
 class KeptSamples {
  public:
+  // Of this node's sources. The roster outlives it.
   KeptSamples(const Roster& roster, NodeIndex node);
 
   // Precondition: of a source of this node. A sample that is not newer than the source's newest one changes nothing.

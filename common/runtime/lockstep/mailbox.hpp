@@ -29,6 +29,7 @@ struct Gap {
 // law names, so the order of arrival cannot change what it sees.
 class Mailbox {
  public:
+  // The roster outlives it.
   Mailbox(const Roster& roster, NodeIndex node);
 
   // From the bus. A sample that this node is not wired to is ignored, an equal duplicate too. What cannot be (a step

@@ -32,6 +32,7 @@ class Runner {
   // kFailed: refused and lost too; report().phase says which.
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
 
+  // All references outlive it. `index`: of the node in the roster.
   Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings);
 
   // Runs to the end on the calling thread.

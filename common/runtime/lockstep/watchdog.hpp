@@ -30,6 +30,7 @@ class Watchdog {
     bool silent = false;  // it is not heard; its process may tell more
   };
 
+  // The roster outlives it.
   Watchdog(const Roster& roster, const Settings& settings);
   // Every report, also one that says nothing new. now_ms: of one clock that never jumps.
   void Heard(const Report& report, std::int64_t now_ms);

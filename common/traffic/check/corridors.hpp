@@ -57,6 +57,7 @@ class Corridors {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
+  // The graph outlives it.
   explicit Corridors(const lanes::Graph& graph);
 
   const Corridor& operator[](std::uint32_t index) const { return corridors_[index]; }

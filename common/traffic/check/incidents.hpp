@@ -17,6 +17,7 @@ class Incidents {
  public:
   static constexpr std::size_t kMax = 20;
 
+  // The network outlives it.
   explicit Incidents(const network::Network& network) : network_(network) {}
 
   // `what`: a format of fmt for the values.

@@ -23,6 +23,7 @@ class RoadCheck {
     boost::container::static_vector<Eigen::Vector3d, 4> wheels_W;  // those beside the road
   };
 
+  // The graph outlives it.
   RoadCheck(const lanes::Graph& graph, std::size_t vehicles);
 
   // Vehicles may come in any order; numbers are below `vehicles`.

@@ -33,6 +33,7 @@ class Occupancy {
   void Insert(std::uint32_t track, const Occupant& occupant);
 
   const std::vector<std::uint32_t>& taken() const { return taken_; }  // tracks with a vehicle
+  // Ascending by middles; valid until the next Insert or Clear.
   std::span<const Occupant> On(std::uint32_t track) const {
     return {all_.data() + places_[track].begin, places_[track].count};
   }

@@ -21,10 +21,11 @@ inline std::span<const Block> BlocksOn(bool any_block, std::span<const std::vect
                                        std::uint32_t track) {
   return any_block ? std::span<const Block>(blocks[track]) : std::span<const Block>();
 }
-// Of a track, m; the cache spares a look into the graph. So GoesOn: whether any track follows.
+// Of a track, m; the cache spares a look into the graph.
 inline double LengthOf(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.length_m : graph[track].length_m();
 }
+// Whether any track follows.
 inline bool GoesOn(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.goes_on : !graph[track].next.empty();
 }

@@ -67,6 +67,7 @@ class WheelLoad final : public multibody::Load {
 // Air drag and the drive shafts' reaction on the chassis.
 class ChassisLoad final : public multibody::Load {
  public:
+  // drag_point: where the drag acts. half_rho_area_kgpm: half the air's density times C_d A.
   ChassisLoad(const multibody::Frame& chassis, multibody::Form drag_point, double half_rho_area_kgpm)
       : chassis_(chassis), drag_point_(std::move(drag_point)), half_rho_area_kgpm_(half_rho_area_kgpm) {}
   // For the coming step: the sum of all drive shafts' torques on the wheels, positive forward.

@@ -18,6 +18,7 @@ enum class DrivenWheels { kFront, kRear, kAll };
 // Whether a wheel of this axle (0 front, 1 rear) is driven.
 bool Drives(DrivenWheels driven, std::size_t axle);
 
+// From the engine to the driven wheels.
 struct PowertrainSettings {
   DrivenWheels driven = DrivenWheels::kFront;
   EngineSettings engine;

@@ -13,6 +13,7 @@ namespace rodeira::multibody {
 struct alignas(16) Block {
   std::array<double, 12> v{};
 
+  // Row and column from 0 to 2.
   double& At(int row, int column) { return v[4 * column + row]; }
   double At(int row, int column) const { return v[4 * column + row]; }
 };

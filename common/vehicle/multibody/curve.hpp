@@ -19,6 +19,7 @@ class Curve {
   // y = slope x.
   static Curve Linear(double slope) { return Curve({{0.0, 0.0}, {1.0, slope}}); }
 
+  // Beyond the samples, too.
   double Value(double x) const;
   // dy/dx; at a sample that of the segment to its right. An empty curve has value and slope 0.
   double Slope(double x) const;

@@ -21,7 +21,7 @@ struct Law {
   double Value(double t) const {
     return c0 + t * (c1 + t * c2) + (amplitude == 0.0 ? 0.0 : amplitude * std::sin(omega() * t + phase_rad));
   }
-  // First derivative, by the second; Acceleration: the second one.
+  // The first derivative by t; Acceleration is the second one.
   double Rate(double t) const {
     return c1 + 2.0 * c2 * t + (amplitude == 0.0 ? 0.0 : amplitude * omega() * std::cos(omega() * t + phase_rad));
   }

@@ -25,6 +25,8 @@ struct Motion {
 // Takes what loads do: generalised forces Q and, where the matrix is being made, their stiffness and damping.
 class Sink {
  public:
+  // `forces`: three numbers an entity, which are added to. `matrix`: null where it is not made. The factors weigh
+  // stiffness and damping in it.
   Sink(double* forces, Block* matrix, double stiffness_factor, double damping_factor)
       : forces_(forces), matrix_(matrix), stiffness_factor_(stiffness_factor), damping_factor_(damping_factor) {}
 

@@ -19,6 +19,7 @@ std::optional<std::filesystem::path> FindMissingProjection(const std::filesystem
 // ProjectionWkt of elevation_file.hpp.
 base::Result<std::string> ToProjectionWkt(std::string_view definition);
 
+// As Geographic::Make.
 base::Result<std::shared_ptr<const MapTransform>> MakeTransform(const std::string& definition);
 // ProjString of geographic.hpp.
 base::Result<std::optional<std::string>> ToProjString(const std::string& definition);
@@ -29,6 +30,7 @@ base::Result<PictureFile> ReadPicturePixels(const std::filesystem::path& path);
 base::Result<std::unique_ptr<PictureReader>> OpenPicture(std::string_view bytes, int max_px);
 base::Result<std::string> EncodePng(const std::uint8_t* rgb, int width_px, int height_px);
 
+// Failed where the file cannot be written.
 base::Status WriteGeoTiff(const GeoTiff& raster, const std::string& file);
 
 }  // namespace rodeira::terrain::geodata

@@ -11,7 +11,7 @@
 // pedestrian.
 namespace rodeira::lanes {
 
-// One road user at one moment. Pedestrians have the same point, heading and speed.
+// One vehicle or pedestrian at one moment.
 struct FloatingCar {
   std::string id;
   std::string_view kind;                    // "car"; empty: a pedestrian

@@ -46,8 +46,9 @@ enum class LaneType : std::uint8_t {
   kSpecial3,
 };
 
-// The word of OpenDRIVE: "driving". By name: nothing where OpenDRIVE has no such type.
+// The word of OpenDRIVE: "driving".
 std::string_view LaneTypeName(LaneType type);
+// Nothing where OpenDRIVE has no such type.
 std::optional<LaneType> LaneTypeByName(std::string_view name);
 // In the order of LaneType.
 std::vector<std::string> LaneTypeNames();

@@ -15,7 +15,7 @@ namespace rodeira::opendrive {
 
 inline constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 29;
 
-// By the first bytes (RFC 1952; ZIP also where it is empty). Nothing else of the data is looked at.
+// By the first bytes alone: whether the rest is sound, Gunzip and Archive::Open find out.
 bool IsGzip(std::string_view bytes);
 bool IsZip(std::string_view bytes);
 

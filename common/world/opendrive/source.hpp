@@ -22,6 +22,7 @@ class Source;
 // An element of the file. It is asked for attributes, and says itself what is wrong with them.
 class Node {
  public:
+  // The source outlives it.
   Node(Source* source, pugi::xml_node node) : source_(source), node_(node) {}
 
   explicit operator bool() const { return static_cast<bool>(node_); }
@@ -43,6 +44,7 @@ class Node {
   // a, b, c, d and where they begin: origin + the named attribute.
   geometry::Cubic Cubic(const char* from, double origin) const;
 
+  // The first child of this name; false where there is none.
   Node Child(const char* element) const { return {source_, node_.child(element)}; }
   // In the order of the file; only direct children.
   std::vector<Node> Children(const char* element) const;

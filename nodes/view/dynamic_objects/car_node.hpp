@@ -78,6 +78,7 @@ class PersonNode {
 // gone.
 class Fleet {
  public:
+  // The library outlives it.
   explicit Fleet(MaterialLibrary& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.

@@ -30,6 +30,7 @@ struct QualityTraits {
       1.0F;  // times a picture is looked up where it is seen at a slant, at most; 1 wherever the processor draws
   bool mirrors_in_turn = false;  // of a window: one of them is drawn anew in each picture while time goes on
 };
+// Lives as long as the program.
 const QualityTraits& TraitsOf(Quality quality);
 
 }  // namespace rodeira::nodes

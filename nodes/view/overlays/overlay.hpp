@@ -30,7 +30,7 @@ osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText:
 // Upright boxes of one colour.
 class Boxes {
  public:
-  // Edges in pixels from the picture's lower left corner.
+  // Edges, from the lower left corner of what the overlay lies over.
   struct Box {
     float left = 0.0F, low = 0.0F, right = 0.0F, high = 0.0F;
 

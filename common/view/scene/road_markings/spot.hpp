@@ -26,7 +26,7 @@ struct Spot {
     const Eigen::Vector2d off = p.x() * ahead_W + p.y() * Eigen::Vector2d(-ahead_W.y(), ahead_W.x());
     return {p_W.x() + off.x(), p_W.y() + off.y(), p_W.z() - normal_W.head<2>().dot(off) / normal_W.z()};
   }
-  // (x, y) below or above a point, seen from above.
+  // The (x, y) of a point of W, seen from above.
   Eigen::Vector2d ToLocal(const Eigen::Vector2d& q_W) const {
     const Eigen::Vector2d off = q_W - p_W.head<2>();
     return {off.dot(ahead_W), off.dot(Eigen::Vector2d(-ahead_W.y(), ahead_W.x()))};
