@@ -21,6 +21,7 @@ class IdlSource {
   // Wrong input, with FILE:LINE, for a file that cannot be read and for a preprocessor line other than an include or an
   // include guard. An included file is looked up beside the file that includes it, then among Rodeira's IDL.
   static base::Result<IdlSource> Read(const std::filesystem::path& path);
+  // The same through a function that reads a file's text.
   static base::Result<IdlSource> Read(const std::filesystem::path& path, const ReadFile& read);
 
   // Self-contained, without preprocessor lines.

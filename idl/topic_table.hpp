@@ -34,6 +34,7 @@ class TopicTable {
   base::Status Add(AddedTopic topic);
 
   const std::vector<AddedTopic>& added() const { return added_; }
+  // Null where the topic is Rodeira's own or unknown.
   const AddedTopic* FindAdded(std::string_view topic) const;
   // None for an unknown topic.
   std::optional<TopicSchema> SchemaOf(std::string_view topic) const;

@@ -21,6 +21,7 @@ base::Result<std::string> ImportPicture(const std::filesystem::path& path);
 
 // `progress(share)` is told from 0 to 1 and may say false: then there is no picture, and that is the error.
 using Progress = std::function<bool(double)>;
+// All of it in full size. Wrong input where it is no picture that can be read, or is too large.
 base::Result<Pixels> DecodePicture(std::string_view bytes, const Progress& progress = {});
 
 // The same in levels, which are worked out on a second thread while the picture is read. A picture of which a small one

@@ -34,6 +34,7 @@ std::optional<std::size_t> Find(const std::vector<traffic_map::Line<Value>>& lin
   }
   return std::nullopt;
 }
+// The first connection of these lanes.
 std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from,
                                 std::int32_t to);
 
@@ -58,9 +59,12 @@ std::string BytesOf(const Document& document);
 struct Borders {
   traffic_map::Cubic left, right;
 
+  // The cubic with the means of both borders' control points.
   traffic_map::Cubic Middle() const;
 };
+// Of a lane that need not be in the document.
 std::optional<Borders> BordersOf(const Document& document, const traffic_map::Lane& lane);
+// The curve in double precision, in its own direction.
 traffic_map::Cubic CubicOf(const traffic_map::Curve& curve);
 
 }  // namespace rodeira::editor

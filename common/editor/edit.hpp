@@ -22,9 +22,11 @@ struct LineChange {
 struct ScaleChange {
   traffic_map::Line<traffic_map::Scale> before, after;
 };
+// The picture's bytes before or after, whichever the document does not hold.
 struct PictureChange {
   std::string other;
 };
+// All that the companion says.
 struct CompanionChange {
   traffic_map::Heights before, after;
 };
@@ -49,6 +51,7 @@ class Edit {
 // Changes a document and writes down how. A command first finds out whether it can be done, then does it all.
 class Recorder {
  public:
+  // The document outlives it.
   explicit Recorder(Document& document) : document_(document) {}
 
   // An index is that of the element in its list of the document.
@@ -63,6 +66,7 @@ class Recorder {
   void RemoveCurve(std::size_t index) { Remove(document_.map.curves, index); }
   void RemoveLane(std::size_t index) { Remove(document_.map.lanes, index); }
   void RemoveConnection(std::size_t index) { Remove(document_.map.connections, index); }
+  // The same value again is no change.
   void SetScale(float value);
   void SetPicture(std::string bytes);
   // To be changed freely; what became of it is written down by Finish.

@@ -43,6 +43,7 @@ class History {
     return {};
   }
 
+  // Whether there is an edit to take back, or to do again.
   bool CanUndo() const { return !done_.empty(); }
   bool CanRedo() const { return !undone_.empty(); }
   // What was taken back or done again; only where it can be.
@@ -50,6 +51,7 @@ class History {
   const std::string& Redo();
   // Of what Undo would take back; empty where there is nothing.
   std::string Last() const { return done_.empty() ? "" : done_.back().edit.what(); }
+  // Of what Redo would do again.
   std::string Next() const { return undone_.empty() ? "" : undone_.back().edit.what(); }
 
  private:

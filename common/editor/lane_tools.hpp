@@ -6,6 +6,7 @@
 // Lanes in one gesture.
 namespace rodeira::editor {
 
+// Width, borders and mode of a lane that is drawn.
 struct LaneLook {
   double width_m = 3.25;
   traffic_map::BorderType left = traffic_map::BorderType::kBoundary;
@@ -41,6 +42,7 @@ Points MiddleBetween(const Document& document, const Eigen::Vector2d& from_W, co
 std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Document& document);
 // Of one lane alone: those that come to it or go on from it.
 std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Document& document, std::int32_t lane);
+// At least one pair of lanes, from and to; none of these connections may be there yet.
 base::Result<Edit> Connect(Document& document, const std::vector<std::pair<std::int32_t, std::int32_t>>& connections);
 
 }  // namespace rodeira::editor

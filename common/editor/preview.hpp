@@ -12,6 +12,7 @@
 
 namespace rodeira::editor {
 
+// How much traffic a preview has.
 struct PreviewSettings {
   std::uint32_t vehicles =
       30;  // on the road and waiting to enter; where start lanes have flows at most so many at a time

@@ -47,6 +47,7 @@ std::optional<Eigen::Vector2d> MiddleOf(const Document& document, const Selectio
 
 // What lies under the pointer, the nearest within a radius.
 std::optional<Handle> HandleAt(const Document& document, const Eigen::Vector2d& p_W, double radius_m);
+// By the distance to the curve itself.
 std::optional<std::int32_t> CurveAt(const Document& document, const Eigen::Vector2d& p_W, double radius_m);
 // The first lane with p on its ground.
 std::optional<std::int32_t> LaneAt(const Document& document, const Eigen::Vector2d& p_W);

@@ -32,6 +32,7 @@ class Session {
     bool good = true;
   };
   const Said& said() const { return said_; }
+  // In place of what was said before.
   void Say(std::string text, bool good = true) { said_ = {std::move(text), good}; }
 
   // An action: its name, or why it was not done, is said. True where it was done.
@@ -46,14 +47,17 @@ class Session {
   }
   // SetPicture and Undo and Redo of it change the picture; all others are asked for through Do.
   bool SetPicture(std::string bytes, float scale);
+  // Undo and Redo tell what they did, or that there is nothing to do.
   void Undo();
   void Redo();
 
   Selection selection;
 
+  // An empty map without a file; true.
   bool New();
   // What was open before is left only where this one can be opened.
   bool Open(const std::filesystem::path& file);
+  // Makes what was opened elsewhere the session's document; `saved`: it is as `file` has it.
   void Take(Opened opened, const std::filesystem::path& file, bool saved);
   // The check first: errors are said, the first one's element is chosen, nothing is written. Where `despite_errors`
   // they are no hindrance.

@@ -13,6 +13,7 @@ struct Pose {
   Eigen::Vector2d p_W = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
 
+  // By so much in its own frame; the heading stays.
   Pose Moved(double ahead_m, double left_m) const;
   Pose Turned(double rad) const { return {p_W, heading_rad + rad}; }
 };
@@ -25,7 +26,9 @@ class Sketch {
   // From pose to pose of its middle; its number.
   std::int32_t Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left,
                     traffic_map::BorderType right, traffic_map::LaneMode mode = traffic_map::LaneMode::kNone);
+  // Numbers that Lane returned.
   void Connect(std::int32_t from, std::int32_t to, bool stop = false) { connections_.push_back({from, to, stop, {}}); }
+  // A give-way sign at the lane's end.
   void GiveWay(std::int32_t lane) { signs_.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}); }
 
   // All of it into the document, or a sentence where it does not fit there.

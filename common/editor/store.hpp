@@ -14,6 +14,7 @@ namespace rodeira::editor {
 // FILE.motors.yaml beside FILE.motors.
 std::filesystem::path CompanionPath(const std::filesystem::path& map_file);
 
+// Both files of a map.
 struct Opened {
   Document document;
   LoadedCompanion companion;
@@ -51,6 +52,7 @@ class Keeper {
   std::vector<Left> Found() const;
   // Wrong input where what lies there cannot be read.
   static base::Result<Opened> Restore(const Left& left);
+  // What was kept is deleted.
   static void Discard(const Left& left);
 
  private:

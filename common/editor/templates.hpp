@@ -7,6 +7,7 @@
 // lanes, so that traffic drives on them at once.
 namespace rodeira::editor {
 
+// Where a template is put, and its measures.
 struct TemplatePlace {
   Eigen::Vector2d middle_W = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;  // of the first arm, from east to north

@@ -38,6 +38,7 @@ class PlaceOrders {
  public:
   // Wrong input with the nearest name where the network has no such road, or the road is shorter.
   static base::Result<PlaceOrder> At(const TrafficModel& model, std::string_view road, double s_m);
+  // It holds from the next step on.
   void Add(const PlaceOrder& order) { orders_.push_back(order); }
 
   // Before the model's step, and after it: a vehicle that has passed in between is told.

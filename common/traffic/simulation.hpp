@@ -68,6 +68,7 @@ struct Simulation : TrafficData {
   Simulation(const Simulation& other) : Simulation(TrafficData(other)) {}
   Simulation& operator=(const Simulation&) = delete;
 
+  // One step of dt_s, over 0. `others`: vehicles and people that are no agents.
   void Step(double dt_s, std::span<const driver::Footprint> others);
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

@@ -55,6 +55,7 @@ class TrafficModel {
   // be vehicles and the world has no lane.
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
                                          std::span<const driver::Footprint> others);
+  // The same on a network without terrain.
   static base::Result<TrafficModel> Make(const TrafficSettings& settings,
                                          std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others);
@@ -82,6 +83,7 @@ class TrafficModel {
   base::Result<bool> Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
   // Whether it ever could; Wrong input as Spawn's.
   base::Status CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const;
+  // Whether it waits for room after Spawn.
   bool IsSpawning(std::uint32_t id) const;
   // Of one of the settings' `scripted` of that kind that is not on the road and does not wait to be: Spawn, with a
   // route (ROAD or ROAD:LANE, one after the other; empty: none). Its id.
@@ -113,6 +115,7 @@ class TrafficModel {
   const std::vector<AgentPose>& poses() const;
   // What an agent is (size, driver), and its state after the last step; the references hold until the next step.
   const AgentTraits& traits(std::uint32_t id) const;
+  // Precondition: id is below the settings' number of vehicles.
   const Agent& agent(std::uint32_t id) const;
   // MOTORS' driver of an agent; null where others drive.
   const MotorsDriver* motors(std::uint32_t id) const;

@@ -24,6 +24,7 @@ struct TrafficRequest {
   double duration_s = 0.0;
 };
 
+// What became of a request.
 struct TrafficAnswer {
   std::optional<base::Error> refusal;  // nothing has changed then
   std::uint32_t agent = 0;             // of the request, or the one that has been added

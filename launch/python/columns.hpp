@@ -11,6 +11,7 @@ using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 
 // The numbers of a one-dimensional array.
 std::vector<double> VectorOf(const Numbers& numbers);
+// A new array with a copy of the numbers.
 pybind11::array_t<double> ArrayOf(const std::vector<double>& numbers);
 
 }  // namespace rodeira::python

@@ -16,11 +16,13 @@ namespace rodeira::python {
 // Raises rodeira.Error with the error's text.
 [[noreturn]] void Raise(const base::Error& error);
 template <class T>
+// The value, or Raise.
 T ValueOrRaise(base::Result<T> result) {
   if (!result) Raise(result.error());
   return std::move(result).value();
 }
 
+// Each adds its functions to the module, once.
 void AddFunctions(pybind11::module_& module);
 void AddMeasures(pybind11::module_& module);
 void AddWorld(pybind11::module_& module);

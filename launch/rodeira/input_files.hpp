@@ -18,6 +18,7 @@ struct InputFolder {
   std::string from;  // "here", "yours" or "Rodeira"
 };
 
+// A file that can be given by its name.
 struct InputFile {
   std::string name;  // path below launch/, configs/worlds/, configs/vehicles/ or the InputFolder, without .yaml
   std::filesystem::path path;

@@ -7,6 +7,7 @@ namespace rodeira::cli {
 // From here on SIGINT, SIGTERM and SIGHUP do nothing but make Interrupted() true, and a limit on the size of files is
 // an error of writing to report, like a full disk.
 void CatchInterrupts();
+// Whether one of these signals has come. Any thread.
 bool Interrupted();
 
 }  // namespace rodeira::cli

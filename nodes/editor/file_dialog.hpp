@@ -19,6 +19,7 @@ class FileDialog {
   void Ask(std::string title, std::vector<std::string> endings, bool to_write, const std::filesystem::path& start,
            Chosen chosen);
   bool open() const { return open_; }
+  // In each picture; nothing where it is not open. `chosen` is called from here.
   void Draw();
 
  private:

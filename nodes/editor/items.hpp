@@ -15,9 +15,12 @@ namespace rodeira::nodes {
 // Where the item that was drawn last stands; nowhere where it cannot be seen.
 void Note(Work& work, const std::string& name);
 
+// True where it was clicked in this picture.
 bool Button(Work& work, const std::string& name, const char* label, const ImVec2& size = ImVec2(0.0f, 0.0f));
 bool SmallButton(Work& work, const std::string& name, const char* label);
+// True: `value` has changed.
 bool Tick(Work& work, const std::string& name, const char* label, bool& value);
+// A line of a list; true where it was clicked.
 bool Listed(Work& work, const std::string& name, const std::string& text, bool chosen);
 // A heading that opens what is below it.
 bool Heading(Work& work, const char* label, bool open_at_first);

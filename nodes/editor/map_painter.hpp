@@ -18,10 +18,15 @@ class MapPainter {
  public:
   // Sets the projection for the canvas; `left_px`, `below_px` are its corner in the window.
   void Begin(const editor::Viewport& view, int left_px, int below_px);
+  // `state`: of the document; shapes are made anew where it changes. handles: whether they are drawn.
   void DrawMap(const editor::Document& document, std::uint64_t state, bool handles);
+  // Over DrawMap.
   void DrawChosen(const editor::Document& document, const editor::Selection& selection);
+  // Connections that could be made, as proposals() lists them.
   void DrawProposals(const editor::Document& document, std::uint64_t state);
+  // Over DrawMap.
   void DrawHeat(const std::vector<editor::HeatPatch>& patches);
+  // All vehicles on the road, after the model's last step.
   void DrawVehicles(const traffic::TrafficModel& model);
 
   const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals() const { return proposals_; }

@@ -16,6 +16,7 @@ void TakeShortcuts(Work& work);
 // Left: new elements, lists, what is chosen, traffic. `proposals`: connections that could be made.
 void DrawSide(Work& work, const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals, float top, float width,
               float height);
+// Parts of DrawSide.
 void DrawLists(Work& work);
 void DrawChosenPanel(Work& work);
 void DrawBesidePanel(Work& work);  // heights, signs, flows of what is chosen
@@ -24,6 +25,7 @@ void DrawTrafficPanel(Work& work);
 void DrawBackgroundPanel(Work& work);
 // Below: the last action in green or red, the visible width, what is loading.
 void DrawStatus(Work& work, float top, float width, float height);
+// The form that is open, over all else.
 void DrawForms(Work& work);
 
 extern const char* const kBorderNames[traffic_map::kBorderTypes];

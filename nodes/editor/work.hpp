@@ -32,6 +32,7 @@ struct LaneForm {
   int left_type = 1, right_type = 1, mode = 0;
   std::int32_t of = 0;  // the lane that is changed; 0: a new one
 };
+// Numbers of lanes.
 struct ConnectionForm {
   int from = 0, to = 0;
   bool stop = false;
@@ -84,25 +85,32 @@ struct Work {
   std::map<std::string, Eigen::Vector2d>
       places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
 
+  // In place of a form that is open.
   void Open(Form what) { form = what, form_opens = true; }
 };
 
 // Actions that a menu, a key and a panel share.
 void NewCurve(Work& work);
+// What is chosen is removed; nothing else is left of it but undo.
 void DeleteChosen(Work& work);
 void ChooseAll(Work& work);
+// The view becomes so wide that the map and its picture are in it.
 void ShowAll(Work& work);
+// All connections that MissingConnections finds are made.
 void ProposeConnections(Work& work);
 // `then`, if any, is done as soon as the map is saved.
 void SaveOrAsk(Work& work, const Action& then = {});
+// Asks for the file first. despite_errors: a draft, which the check does not hinder.
 void AskToSave(Work& work, bool despite_errors, const Action& then = {});
 // At once, or, where something is unsaved, after asking whether to save it, to give it up, or to stay.
 void UnlessUnsaved(Work& work, Action act);
+// NewMap and AskToOpen give up what is there: call them by UnlessUnsaved. AskToClose asks by itself.
 void NewMap(Work& work);
 void AskToOpen(Work& work);
 void AskToImport(Work& work);
 void AskToExport(Work& work);
 void AskToClose(Work& work);
+// Traffic on the map as it is now; a changed map begins anew.
 void RunOrPause(Work& work);
 void StopTraffic(Work& work);
 

@@ -16,7 +16,9 @@ struct CarSeen {
   double steering_torque_Nm = 0.0;       // what the road gives back to its steering wheel, positive to the left
   double front_load_difference_N = 0.0;  // left less right: what its front wheels stand on
 };
+// Of a vehicle's newest sample.
 CarSeen SeenOf(const msg::VehicleState& state);
+// Wrong input where the sample cannot be read.
 base::Result<CarSeen> SeeCar(const lockstep::Inbox& inbox);
 
 }  // namespace rodeira::nodes

@@ -19,6 +19,7 @@ class Script {
   // file:line otherwise.
   static base::Result<Script> Parse(std::string_view text, const std::filesystem::path& name);
 
+  // time_s: since the run's beginning.
   dynamics::Controls At(double time_s) const;
 
  private:
@@ -29,6 +30,7 @@ class Script {
   std::vector<Row> rows_;
 };
 
+// A source that gives the script's controls; signals stay off.
 std::unique_ptr<Source> MakeScriptSource(Script script);
 
 }  // namespace rodeira::nodes

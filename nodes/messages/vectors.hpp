@@ -13,6 +13,7 @@ inline Eigen::Vector3d FromMessage(const msg::Vector3& v) { return {v.x(), v.y()
 inline Eigen::Vector3d FromMessage(const msg::Vector3f& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
+// The message has the order w, x, y, z.
 inline Eigen::Quaterniond FromMessage(const msg::Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 inline msg::Vector3 ToMessage(const Eigen::Vector3d& v) {

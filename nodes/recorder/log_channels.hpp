@@ -16,6 +16,7 @@ namespace rodeira::nodes {
 class LogChannels {
  public:
   LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);
+  // Adds the channels to the recording, before the first message.
   base::Status Begin(record::McapWriter& writer);
   // A message of these channels that an earlier incarnation of the recorder has written: it is not written again.
   void Remember(const record::Channel& channel, const record::Message& message);

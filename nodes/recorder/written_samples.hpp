@@ -17,6 +17,7 @@ class WrittenSamples {
 
   // An earlier incarnation has written everything up to here, in the order of (step, source).
   void BeginBehind(lockstep::Step step, lockstep::SourceIndex source);
+  // The sample has been written.
   void Note(lockstep::Step valid, lockstep::SourceIndex source);
   // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier incarnation
   // among them, and how many are `missing` of a run that ended at `last_step`.

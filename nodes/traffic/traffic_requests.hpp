@@ -18,6 +18,7 @@ class TrafficRequests {
   // `name`: the node's, for the log.
   explicit TrafficRequests(std::string name) : name_(std::move(name)) {}
 
+  // Before the step's requests.
   void BeginStep() { answers_.answers().clear(); }
   // Carries out the requests of a sample, one after the other.
   base::Status Take(const lockstep::Sample& sample, traffic::TrafficModel& model);

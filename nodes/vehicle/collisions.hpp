@@ -22,6 +22,7 @@ class Collisions {
  public:
   Collisions(const dynamics::VehicleDimensions& dimensions, ObstacleMap world);
 
+  // What a step's contacts do to the car.
   struct Touched {
     dynamics::Wrench push;  // on the car, for the step that begins now
     msg::Collisions event;  // the same as impulses over that step

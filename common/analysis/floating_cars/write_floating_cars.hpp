@@ -14,6 +14,7 @@
 // A recording as floating car data for SUMO's tools.
 namespace rodeira::floating_cars {
 
+// What of a recording is written.
 struct FloatingCarsQuery {
   const decode::Aliases* aliases = nullptr;    // names of older recordings; may be null
   const network::Network* network = nullptr;   // of the world that the recording embeds; null: no lanes are written
@@ -21,6 +22,7 @@ struct FloatingCarsQuery {
   std::function<bool(double share)> progress;  // false ends the writing with an Error; may be empty
 };
 
+// What has been written.
 struct FloatingCarsReport {
   double period_s = 0.0;  // between two timesteps: of the slowest source, where that is slower than the rate
   std::uint64_t timesteps = 0, vehicles = 0, persons = 0;  // elements of the file

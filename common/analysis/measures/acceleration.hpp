@@ -8,6 +8,7 @@
 // Acceleration and jerk from the speed: a recorded acceleration in single precision is too coarse to differentiate.
 namespace rodeira::measures {
 
+// How the speed is filtered before it is differentiated.
 struct AccelerationOptions {
   double cutoff_hz = 5.0;  // low-pass of the speed: Butterworth order 2, forward and backward
   double window_s = 1.0;   // of means and slopes
@@ -22,8 +23,10 @@ Measure LargestDeceleration(Series speed_mps, double rate_hz, const Acceleration
 Measure LargestMeanDeceleration(Series speed_mps, double rate_hz, const AccelerationOptions& options);
 // The largest negative jerk by the slope of the acceleration over window_s, positive.
 Measure LargestNegativeJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+// The root of the mean square of Jerk, m/s^3.
 Measure RmsJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
 
+// Filter and threshold of DiscomfortShare.
 struct DiscomfortOptions {
   double cutoff_hz = 5.0;
   double threshold_mps2 = 1.5;  // of the acceleration in the plane of the road

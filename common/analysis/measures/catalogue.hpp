@@ -45,6 +45,7 @@ class OptionValues {
   const std::map<std::string, double>& given_;
 };
 
+// What is known of a measure; texts are in English, for people.
 struct MeasureInfo {
   const char* name;  // its column, with the unit: "sdlp_m"
   const char* family;

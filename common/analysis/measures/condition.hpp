@@ -15,6 +15,7 @@ namespace rodeira::measures {
 // value fulfils none.
 struct Condition {
   enum class Relation { kBelow, kAtMost, kAbove, kAtLeast, kEqual, kNotEqual };
+  // One comparison.
   struct Term {
     std::size_t column = 0;  // of SeriesNames
     Relation relation = Relation::kEqual;
@@ -23,6 +24,7 @@ struct Condition {
   std::string text;
   std::vector<Term> terms;
 
+  // Precondition: a sample of the drive.
   bool Holds(const Drive& drive, std::size_t k) const;
 };
 // Wrong input, with the nearest right name, where a column, relation or number is none.

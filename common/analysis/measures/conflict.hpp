@@ -22,14 +22,17 @@ double BrakingLeaderDrac_mps2(double gap_m, double own_mps, double leader_mps, d
 
 // The first of these for each sample.
 std::vector<double> TtcSeries(Series gap_m, Series own_mps, Series leader_mps);
+// Drac_mps2 of each sample. Precondition: three series of one length.
 std::vector<double> DracSeries(Series gap_m, Series own_mps, Series leader_mps);
 
 // Time exposed: the time in which TTC is below the threshold, s; and the integral of threshold - TTC over it, s^2
 // (Minderhoud & Bovy 2001). n counts the samples with a leader; without one both are missing.
 Measure TimeExposedTtc(Series ttc_s, Series gap_m, double rate_hz, double threshold_s);
+// The integral, s^2.
 Measure TimeIntegratedTtc(Series ttc_s, Series gap_m, double rate_hz, double threshold_s);
 // The least TTC, and the mean of 1/TTC with 0 where the vehicle does not close in. Missing without a leader.
 Measure LeastTtc(Series ttc_s, Series gap_m);
+// In 1/s.
 Measure MeanInverseTtc(Series ttc_s, Series gap_m);
 
 }  // namespace rodeira::measures

@@ -69,6 +69,7 @@ struct DriveColumn {
   const char* name;
   const std::vector<double>& (*of)(const Drive& drive);
 };
+// In the order of a table's columns.
 std::span<const DriveColumn> DriveColumns();
 // The column of that name; null where there is none.
 std::vector<double>* FindColumn(Drive& drive, std::string_view name);

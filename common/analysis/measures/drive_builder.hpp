@@ -20,7 +20,9 @@ class DriveBuilder {
   // network may be null.
   DriveBuilder(const network::Network* network, double rate_hz);
 
+  // front_m: from B's origin to the front bumper.
   void SetFootprint(double length_m, double front_m, double width_m);
+  // k ascends; a sample that was there already, or comes late, is passed over.
   void AddSubject(std::size_t k, const SubjectSample& sample);
   // The others at a sample. `traffic`: these are all agents of it; without, vehicles beside them.
   void AddOthers(std::size_t k, const std::vector<OtherVehicle>& others, bool traffic);
@@ -28,6 +30,7 @@ class DriveBuilder {
   void AddLight(std::size_t k, std::uint32_t controller, double colour);
   // Whether there is traffic, so that samples without it are filled in between.
   void ExpectTraffic() { has_traffic_ = true; }
+  // Once, after the last sample.
   Drive Finish();
 
   bool has_subject() const { return next_ > 0; }

@@ -21,6 +21,7 @@ struct DriveEvent {
   std::string argument;  // of the event
 };
 
+// Which road user of a recording is read.
 struct DriveQuery {
   std::string subject;                       // name of a vehicle node, or "agent:7"; empty: the first vehicle
   const decode::Aliases* aliases = nullptr;  // names of older recordings; may be null
@@ -30,6 +31,7 @@ struct DriveQuery {
   std::function<bool(double share)> progress;
 };
 
+// A drive, and what happened meanwhile.
 struct DriveReading {
   Drive drive;
   std::vector<DriveEvent> events;  // by time

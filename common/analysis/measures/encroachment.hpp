@@ -35,6 +35,7 @@ struct Stay {
   std::size_t samples = 0;            // that touch it
   bool begins = false, ends = false;  // it enters behind the path's begin, and leaves before its end
 };
+// Nothing where the path never touches it.
 std::optional<Stay> StayIn(std::span<const Footprint> path, const SweptArea& area);
 
 // Post-encroachment time of one encounter: the common area is the intersection of what both footprints sweep. One

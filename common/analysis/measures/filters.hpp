@@ -18,6 +18,7 @@ struct SecondOrderSection {
 // -6 dB forward and backward. Precondition: 0 < cutoff_hz < rate_hz / 2.
 SecondOrderSection ButterworthLowPass(double cutoff_hz, double rate_hz);
 SecondOrderSection ButterworthHighPass(double cutoff_hz, double rate_hz);
+// Whether that precondition holds.
 bool IsCutoff(double cutoff_hz, double rate_hz);
 
 // Samples by which FilterBothWays extends a series at each end: filtfilt of SciPy, 3 times the number of coefficients.
@@ -27,6 +28,7 @@ inline constexpr double kPadding_s = 0.09;
 // The 6 samples of MATLAB's filtfilt at the 30 Hz of the authors' steering recordings, as a time: counts near the ends
 // depend on it, and with a number of samples they would depend on the rate.
 inline constexpr double kPaddingOfAuthors_s = 0.2;
+// Whole samples, for FilterBothWays.
 std::size_t PaddingSamples(double padding_s, double rate_hz);
 
 // Forward in time only, from the steady state of the first sample. Precondition: no sample is missing.
@@ -42,6 +44,7 @@ struct SampleRun {
 
   std::size_t size() const { return to - from; }
 };
+// Runs without a missing sample, ascending.
 std::vector<SampleRun> ValidRuns(Series x);
 // FilterBothWays in each run of valid samples; shorter runs, and what is missing, are missing.
 std::vector<double> FilterRunsBothWays(const SecondOrderSection& section, Series x, std::size_t padding);

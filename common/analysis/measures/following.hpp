@@ -13,6 +13,7 @@ struct FollowingOptions {
   std::size_t min_segments = 5;  // one segment alone always has a coherence of 1
   double rate_hz = 4.0;          // to which faster series are decimated, at least
 };
+// At one frequency.
 struct Following {
   Measure coherence;  // 0 to 1
   Measure modulus;    // own amplitude over the leader's

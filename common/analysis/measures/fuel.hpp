@@ -5,6 +5,7 @@
 
 namespace rodeira::measures {
 
+// What turns kilograms into litres.
 struct FuelOptions {
   double density_kgpl = 0.745;  // of petrol, as gauges count it
 };

@@ -14,6 +14,7 @@ struct FollowedOptions {
   double near_gap_m = 20.0;     // in a queue, time gaps are long
   double min_speed_mps = 0.1;   // below, a time gap is missing
 };
+// As a measure tells its options.
 UsedOptions UsedOf(const FollowedOptions& options);
 
 // The gap where there is a leader within the limits; missing elsewhere. The limit grows with the own speed, from

@@ -22,6 +22,7 @@ struct TimePoint {
   std::string name, argument;
   int number = 1;
 };
+// Wrong input where the text is none of these.
 base::Result<TimePoint> ParseTimePoint(std::string_view text);
 
 // A part of each recording, as it is asked for.
@@ -37,6 +38,7 @@ struct IntervalSpec {
 // "NAME=FROM..TO", where TO may be "+SECONDS", or "NAME=while CONDITION". Wrong input where it is none, or empty
 // whatever the recording is.
 base::Result<IntervalSpec> ParseInterval(std::string_view text);
+// Wrong input where the interval is empty whatever the recording is.
 base::Status CheckInterval(const IntervalSpec& spec);
 
 // The part of one recording: the samples with from_s <= t < to_s, so that neighbours add up.

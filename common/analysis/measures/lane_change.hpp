@@ -10,11 +10,13 @@
 
 namespace rodeira::measures {
 
+// Where a lane change begins and ends.
 struct LaneChangeOptions {
   double onset_mps = 0.1;      // lateral speed below which the vehicle keeps its lane
   double max_duration_s = 10;  // of each half: begin to crossing, crossing to end
 };
 
+// Indices of samples of the series.
 struct LaneChange {
   std::size_t begin = 0;     // last sample before the crossing with a lateral speed below the onset
   std::size_t crossing = 0;  // first sample in the next lane

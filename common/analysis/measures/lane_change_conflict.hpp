@@ -17,11 +17,13 @@ struct LagLimits {
   double ttc_15_s = 3.0;  // by 15 m/s at most
   double ttc_20_s = 3.5;  // faster; the standard's last class ends at 20 m/s
 
+  // The least time to collision, s, that is allowed at this closing speed.
   double For(double closing_mps) const {
     return closing_mps <= 10.0 ? ttc_10_s : closing_mps <= 15.0 ? ttc_15_s : ttc_20_s;
   }
 };
 
+// How near others came in a change.
 struct LaneChangeConflict {
   double leader_ttc_s = kMissing;  // at the begin; missing: no leader that the vehicle closes in on
   double lag_ttc_s = kMissing;     // least from begin to end; 0: the lag is beside; missing: none that closes in

@@ -10,6 +10,7 @@
 
 namespace rodeira::measures {
 
+// Which times beyond a line count.
 struct DepartureOptions {
   double hysteresis_m = 0.1;    // a departure ends where the part is again so far inside the line
   double min_duration_s = 0.2;  // shorter ones do not count

@@ -27,14 +27,18 @@ struct LanePlace {
 // the position in the nearest driving lane, up to that lane's width beyond its edge; farther beside it is in none.
 class LaneFinder {
  public:
+  // The graph outlives it.
   explicit LaneFinder(const lanes::Graph& graph) : graph_(graph) {}
 
+  // The nearest driving lane, at most a lane's width beside it; else nothing. The heading counts from east; the hint
+  // only saves work.
   std::optional<LanePlace> Find(double x_m, double y_m, double z_m, double heading_rad, network::Hint& hint) const;
   // Only the track and the distance along it.
   struct OnTrack {
     std::uint32_t track = 0;
     double along_m = 0.0;
   };
+  // The hint only saves work.
   std::optional<OnTrack> FindTrack(double x_m, double y_m, double z_m, network::Hint& hint) const;
 
  private:

@@ -19,6 +19,7 @@ struct LanePosition {
 // The runs of valid samples of one episode.
 std::vector<SampleRun> LaneRuns(const LanePosition& position);
 
+// How deviations are pooled, and when there are too few samples.
 struct SdlpOptions {
   Denominator denominator = Denominator::kNMinus1;
   double min_valid_share = 0.85;  // below, the value is missing
@@ -27,6 +28,7 @@ struct SdlpOptions {
 // changes are to be missing in y.
 Measure Sdlp(const LanePosition& position, const SdlpOptions& options);
 
+// The high-pass, and which runs count.
 struct ModifiedSdlpOptions {
   Denominator denominator = Denominator::kNMinus1;
   double cutoff_hz = 0.1;

@@ -28,6 +28,7 @@ struct Near {
   const OtherVehicle* vehicle = nullptr;
   double gap_m = 0.0;  // from bumper to bumper along the lane
 };
+// Without a vehicle: null.
 struct NearBoth {
   Near ahead, behind;
 };
@@ -35,8 +36,10 @@ struct NearBoth {
 // How far neighbours are looked for, along the lanes.
 inline constexpr double kNeighbourReach_m = 250.0;
 
+// Finds neighbours up to kNeighbourReach_m along the lanes. For one thread.
 class LeaderFinder {
  public:
+  // The graph outlives it.
   explicit LeaderFinder(const lanes::Graph& graph) : graph_(graph), finder_(graph) {}
 
   // Where the others are; for the next calls. Those beside the lanes are left out.

@@ -18,6 +18,7 @@ class LiveKinematics {
   LiveKinematics(const LiveKinematics&) = delete;
   LiveKinematics& operator=(const LiveKinematics&) = delete;
 
+  // front_m: from B's origin to the front bumper.
   void SetFootprint(double length_m, double front_m, double width_m);
   // A drive of one sample, valid until the next call. others: all other vehicles, without pedestrians.
   const Drive& At(const SubjectSample& subject, std::span<const OtherVehicle> others);

@@ -8,6 +8,7 @@
 // The lane-change test (ISO 26022): lateral deviation from a reference path that changes lanes at signs.
 namespace rodeira::measures {
 
+// A sign of the test, in the road's s and t (positive to the left).
 struct LaneChangeSign {
   double s_m = 0.0;         // station of the sign
   double target_t_m = 0.0;  // lateral position of the middle of the lane that it demands

@@ -28,6 +28,7 @@ struct UsedOption {
 };
 using UsedOptions = std::vector<UsedOption>;
 using OptionValue = std::variant<double, int, const char*>;
+// Numbers become the shortest text that reads back to the same number.
 UsedOptions Used(std::initializer_list<std::pair<const char*, OptionValue>> options);
 
 // The value of a measure, with all that is needed to judge it.

@@ -10,6 +10,7 @@
 
 namespace rodeira::measures {
 
+// Which gaps at junctions count as offered.
 struct GapOptions {
   double line_m = 5.0;  // the driver has arrived when the front is so near to the junction's begin
   double max_gap_s = 20.0;

@@ -13,6 +13,7 @@ struct PedalOptions {
   double on = 0.02;
   double off = 0.01;
 };
+// largest: share of the pedal's travel; the integral is of that share over time.
 struct PedalPress {
   std::size_t from = 0, to = 0;  // samples [from, to)
   double largest = 0.0;
@@ -21,6 +22,7 @@ struct PedalPress {
 // A press that is there at the series' beginning counts. A missing sample ends one.
 std::vector<PedalPress> PedalPresses(Series pedal, double rate_hz, const PedalOptions& options);
 
+// Of PedalPresses.
 Measure PedalPressCount(Series pedal, double rate_hz, const PedalOptions& options);
 Measure FirstPedalPress(Series pedal, double rate_hz, const PedalOptions& options);  // s after the series' beginning
 Measure PedalIntegral(Series pedal, double rate_hz, const PedalOptions& options);    // of all presses

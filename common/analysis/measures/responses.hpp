@@ -26,8 +26,10 @@ enum class ResponseFlag {
   kCensored,      // none before the window ends: missing, never the window's length
   kNoSignal,      // a sample is missing
 };
+// In a few words, as the reason of a missing time.
 const char* NameOf(ResponseFlag flag);
 
+// Seconds after the event, which is the series' beginning; nothing where the flag says so.
 struct Response {
   std::optional<double> time_s;
   ResponseFlag flag = ResponseFlag::kCensored;
@@ -39,9 +41,11 @@ Measure AsMeasure(const Response& response, Series signal, double rate_hz, const
 Response AcceleratorRelease(Series throttle, double rate_hz, const ResponseOptions& options);
 // The time at which it is released.
 Response AcceleratorReleased(Series throttle, double rate_hz, const ResponseOptions& options);
+// The time at which the brake is pressed.
 Response BrakeOnset(Series brake, double rate_hz, const ResponseOptions& options);
 // The time from the brake's onset to full_brake_share of its largest travel.
 Response TimeToFullBrake(Series brake, double rate_hz, const ResponseOptions& options);
+// The time at which the steering wheel begins to turn.
 Response SteeringOnset(Series wheel_deg, double rate_hz, const ResponseOptions& options);
 // From released accelerator to brake onset. Missing where one of them is.
 Response MovementTime(Series throttle, Series brake, double rate_hz, const ResponseOptions& options);

@@ -27,6 +27,7 @@ struct AlongBody {
   double heading_rad = 0.0;
   double speed_mps = 0.0;
 };
+// q need not have unit length; the speed is positive forward.
 AlongBody AlongBodyOf(double qw, double qx, double qy, double qz, double vx_mps, double vy_mps, double vz_mps);
 
 // Sets the columns of sample k, which exists.

@@ -16,6 +16,7 @@ struct SpectrumBin {
   double x = 0.0, y = 0.0;     // densities of x and y
   std::complex<double> cross;  // of conj(X) Y: its argument is negative where y follows x
 };
+// Sums over the segments that count; without any they are 0.
 struct Spectrum {
   std::size_t segments = 0;
   std::vector<SpectrumBin> bins;  // from one cycle a segment to at most highest_hz

@@ -13,6 +13,7 @@ std::vector<double> InMotion(Series speed_mps, double min_speed_mps);
 
 // Distance over time of the valid samples: the mean over time. The mean over distance weights each sample by its speed.
 Measure MeanSpeed(Series speed_mps, double min_speed_mps);
+// In both, samples slower than min_speed_mps are left out.
 Measure MeanSpeedByDistance(Series speed_mps, double min_speed_mps);
 // Share of the time above limit + over_mps, of the time with a limit. The limit is missing where none holds.
 Measure ShareAboveLimit(Series speed_mps, Series limit_mps, double over_mps);

@@ -13,6 +13,7 @@ namespace rodeira::measures {
 
 // What the sum of squares is divided by. SAE J2944 wants it stated.
 enum class Denominator { kN, kNMinus1 };
+// As it stands in a measure's options.
 const char* NameOf(Denominator denominator);
 
 // Missing samples are left out. Nothing where too few are left: one for a mean, a quantile or an extreme, and for a
@@ -44,6 +45,7 @@ Measure MeanOf(Series x, const char* unit);
 Measure DeviationOf(Series x, const char* unit, Denominator denominator);
 Measure MinimumOf(Series x, const char* unit);
 Measure MaximumOf(Series x, const char* unit);
+// p from 0 to 1.
 Measure QuantileOf(Series x, const char* unit, double p);
 // The share of the valid samples that lie below a threshold, or above it.
 Measure ShareBelow(Series x, double threshold);

@@ -12,6 +12,7 @@ Measure MeanSteeringRate(Series wheel_deg, double rate_hz);
 // Share of the time in which |rate| is below still_degps.
 Measure SteeringStillShare(Series wheel_deg, double rate_hz, double still_degps = 1.0);
 
+// The two bands, and the segments of the spectrum.
 struct HighFrequencyOptions {
   double from_hz = 0.3;
   double to_hz = 0.6;

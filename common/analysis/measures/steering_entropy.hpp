@@ -33,9 +33,11 @@ inline constexpr double kEntropyRate_hz = 4.0;
 std::vector<double> At4Hz(Series wheel_deg, double rate_hz);
 // Coefficients a of x[n] = a0 x[n-1] + a1 x[n-2] + a2 x[n-3] + e by Burg's method. Nothing for fewer than 8 samples.
 std::optional<std::array<double, 3>> BurgAr3(Series x);
+// The errors e; the first three samples have none.
 std::vector<double> ArErrors(Series x, const std::array<double, 3>& a);
 // Shares of the 14 bins cut at 0, +-1 ... +-6 pe, the outer ones open, each at least 1e-3.
 using EntropyShares = std::array<double, 14>;
+// Precondition: pe_deg is over 0.
 EntropyShares SharesOf(Series errors_deg, double pe_deg);
 // pe: half the sum of the magnitudes of the 20th and the 80th percentile (type 7).
 std::optional<double> EntropyPe(Series errors_deg);

@@ -14,11 +14,13 @@ namespace rodeira::measures {
 std::string CsvTable(const MeasuresSpec& spec, std::span<const MeasuresRow> rows);
 // One row a value: name, value, unit, n, valid share, why it is missing, options.
 std::string LongCsvTable(const MeasuresSpec& spec, std::span<const MeasuresRow> rows);
+// One array, an object an interval.
 std::string JsonTable(const MeasuresSpec& spec, std::span<const MeasuresRow> rows);
 // For a terminal: one block an interval, one line a measure.
 std::string TextTable(const MeasuresSpec& spec, std::span<const MeasuresRow> rows);
 // The time series of a drive: time_s, the columns of DriveColumns, and those that follow from them: TTC, TLC, time gap.
 std::string SeriesHeader();
+// One line; missing values are empty.
 void AppendSeriesRow(const Drive& drive, std::size_t k, std::string& out);
 
 // What stands in the sidecar of a recording.

@@ -28,6 +28,7 @@ double TrigonometricTlc_s(const LaneApproach& approach, double horizon_s = 20.0)
 // is approached, d' the speed towards it, d'' its derivative. Missing where the denominator is not above 0; 0 where d
 // is not.
 double FirstOrderTlc_s(double distance_m, double towards_mps);
+// towards_mps2: d''.
 double SecondOrderTlc_s(double distance_m, double towards_mps, double towards_mps2);
 
 // The least value of each approach, that is, of each run of valid samples.

@@ -14,8 +14,10 @@ namespace rodeira::measures {
 // The next junction and the next light on a way over the lane graph.
 class WayAhead {
  public:
+  // The graph outlives it.
   explicit WayAhead(const lanes::Graph& graph) : graph_(graph) {}
 
+  // The line of a light on the way.
   struct Light {
     double d_m = 0.0;
     std::uint32_t controller = 0;  // index into the network's controllers

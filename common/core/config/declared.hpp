@@ -20,6 +20,7 @@ class DeclaredMap {
  public:
   DeclaredMap(Map map, const std::vector<Key>& keys) : map_(std::move(map)), keys_(&keys) {}
 
+  // The value, or the declared default. Where it is wrong: a problem in the file's collection, and the default.
   double Number(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedNumberKey.
   double Number(std::string_view key, double default_value) const;
@@ -67,11 +68,13 @@ class DeclaredMap {
 // A list that is read by the declaration of its items.
 class DeclaredList {
  public:
+  // `item`, the declaration of each item, outlives it.
   DeclaredList(List list, const Key& item) : list_(std::move(list)), item_(&item) {}
 
   std::size_t size() const { return list_.size(); }
   // An item that is a mapping.
   DeclaredMap At(std::size_t index) const;
+  // Precondition of both: the item's index is below size().
   double Number(std::size_t index) const;
   std::string Text(std::size_t index) const;
   // For problems and places.

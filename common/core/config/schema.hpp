@@ -82,12 +82,15 @@ Key TextKey(std::string name, std::string default_value, std::string meaning);
 Key RequiredTextKey(std::string name, std::string sample, std::string meaning);
 // A text with a default that the reader computes; `sample` is one that it takes, as YAML.
 Key ComputedTextKey(std::string name, std::string default_note, std::string sample, std::string meaning);
+// One of `words`.
 Key WordKey(std::string name, std::vector<std::string> words, std::string default_value, std::string meaning);
 // A word that may be absent; its reader tells what follows from that.
 Key OptionalWordKey(std::string name, std::vector<std::string> words, std::string meaning);
+// A mapping with these keys; optional unless it goes through Required.
 Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning);
 // A mapping of names to mappings with the keys; of names to values.
 Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning);
+// `value` is without a name.
 Key NamedValueKey(std::string name, Key value, std::string meaning);
 // A value of kNamed or an item of a list: a mapping of one of `kinds`, a MappingKey each; the key `word` says which.
 // Words of `word` are the names of the kinds; it is required unless it has a default.
@@ -95,7 +98,7 @@ Key KindsItem(Key word, std::vector<Key> kinds);
 Key ListKey(std::string name, Key item, std::string meaning);
 // A list of mappings with the keys.
 Key ListKey(std::string name, std::vector<Key> keys, std::string meaning);
-// An item of a list.
+// An item of a list: it has no name and no default.
 Key NumberItem(Range range);
 Key TextItem(std::string sample);
 Key WordItem(std::vector<std::string> words);

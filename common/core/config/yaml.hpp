@@ -73,6 +73,7 @@ std::string RangeText(Range range);
 
 // Whole-text conversions: what std::from_chars takes, with nothing left over. Decimal point, no locale; finite.
 std::optional<double> ToNumber(const std::string& text);
+// Of 64 bits.
 std::optional<std::int64_t> ToInteger(const std::string& text);
 
 // The value of a key, undefined where there is none.

@@ -37,7 +37,9 @@ struct ClothoidPanel {
   Eigen::Vector2d begin_W, begin_tangent_W, end_W, end_tangent_W;
   double bulge_m;  // no point of the panel is farther from its chord
 
+  // u_m: from the panel's middle, within [-half, half].
   PlanPoint At(double u_m) const;
+  // Position and unit tangent of At alone.
   void Point(double u_m, Eigen::Vector2d& p_W, Eigen::Vector2d& tangent_W) const;
   // Of equally near points the first one.
   PanelFoot Nearest(const Eigen::Vector2d& p_W) const;

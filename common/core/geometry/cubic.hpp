@@ -11,6 +11,7 @@ struct Cubic {
   double from = 0.0;
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 
+  // At x, also beyond the record's end; Slope and Bend: the first and the second derivative.
   double Value(double x) const {
     const double u = x - from;
     return a + u * (b + u * (c + u * d));
@@ -41,6 +42,7 @@ class CubicTable {
   const std::vector<Cubic>& records() const { return records_; }
   // The record in force at x. There must be one.
   const Cubic& At(double x) const { return records_[Index(x)]; }
+  // 0 without records. Before the first record that one counts.
   double Value(double x) const { return records_.empty() ? 0.0 : At(x).Value(x); }
   CubicPoint Evaluate(double x) const {
     if (records_.empty()) return {};

@@ -76,7 +76,9 @@ class PlanAxis {
   double length_m() const { return length_m_; }  // the end of the last element
   // s is held within [0, length]. Where two elements meet: the start of the second.
   PlanPoint Evaluate(double s_m) const;
+  // u_m: from the panel's middle, within its half length.
   PlanPoint At(const AxisPanel& panel, double u_m) const;
+  // Of a panel of this axis; of equally near points the first one.
   AxisFoot Foot(const AxisPanel& panel, const Eigen::Vector2d& p_W) const;
   // By how much a panel's curvature changes a metre, where it does so linearly; nothing for a cubic.
   std::optional<double> RateOf(const AxisPanel& panel) const {
@@ -85,6 +87,7 @@ class PlanAxis {
   }
   // No point of the panel is farther from the chord between its ends than this.
   double Bulge(const AxisPanel& panel) const;
+  // The panel that holds s, held within [0, length]; of two that meet there the second.
   std::size_t PanelAt(double s_m) const;
   // An element's end, by its own formula. The heading of a cubic's lies in (-pi, pi].
   static PlanPoint End(const PlanElement& element);

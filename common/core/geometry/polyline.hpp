@@ -22,11 +22,13 @@ struct Polyline {
 // The station of each point: 0, then the length in plan up to it.
 std::vector<double> StationsOf(const Polyline& line);
 
+// By a vector in W.
 Polyline Translated(Polyline line, const Eigen::Vector3d& by_m);
 // About a vertical axis, counted from east to north.
 Polyline Rotated(Polyline line, double angle_rad, const Eigen::Vector2d& about_W);
 // Away from `about`: plan and heights may grow differently. Factors greater than 0.
 Polyline Scaled(Polyline line, double plan_factor, double z_factor, const Eigen::Vector3d& about_W);
+// The same points from the last to the first.
 Polyline Reversed(Polyline line);
 
 // How lines are put together.

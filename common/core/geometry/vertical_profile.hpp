@@ -26,6 +26,7 @@ class VerticalProfile {
   // Points in ascending s; the parabolas may touch but not overlap, and none stands at the first or the last point.
   explicit VerticalProfile(std::vector<GradePoint> points);
   const std::vector<GradePoint>& points() const { return points_; }
+  // At any s.
   ProfilePoint Evaluate(double s_m) const;
 
  private:

@@ -13,6 +13,7 @@ struct Table {
   std::vector<double> values;
 
   std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
+  // Precondition: row < rows(), column < names.size().
   double At(std::size_t row, std::size_t column) const { return values[row * names.size() + column]; }
 };
 

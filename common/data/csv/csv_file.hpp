@@ -22,6 +22,7 @@ class CsvFile {
 
   // To write into; Drain() empties it where it has grown.
   std::string& buffer() { return buffer_; }
+  // Drain and Close fail where the disk refuses.
   base::Status Drain();
   // Everything is with the operating system.
   base::Status Close();

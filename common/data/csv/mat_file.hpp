@@ -32,6 +32,7 @@ class MatFile {
   base::Status Add(const PlainTable& table);
   // The same bytes as for the table in memory; one part of a column is in memory at a time.
   base::Status Add(const std::string& name, std::span<const SpilledColumn> columns, const SpillFile& spill);
+  // Everything is with the operating system. Failed where the disk refuses.
   base::Status Close() { return file_.Close(); }
   std::uint64_t written_bytes() const { return file_.written_bytes(); }
 

@@ -21,6 +21,7 @@ class MatTable final : public TableWriter {
   base::Status Close() override { return {}; }
   std::uint64_t written_bytes() const override;
   std::size_t bytes_in_memory() const;  // of the columns
+  // Once, after the last message. Wrong input where the variable would be larger than kMaxMatBytes.
   base::Status AddTo(MatFile& file) const { return file.Add(name_, columns_, spill_); }
 
  private:

@@ -20,6 +20,7 @@ struct TextColumn {
   std::vector<std::uint32_t> index;                          // of each row, into `distinct`
   std::map<std::string, std::uint32_t, std::less<>> number;  // of each text in `distinct`
 
+  // One more row.
   void Add(std::string_view text);
   const std::string& operator[](std::size_t row) const { return distinct[index[row]]; }
 };

@@ -20,9 +20,11 @@ class SpillFile {
   SpillFile& operator=(SpillFile&&) = delete;
   ~SpillFile();
 
+  // Some bytes of the file.
   struct Piece {
     std::uint64_t offset = 0, bytes = 0;
   };
+  // Failed where the disk refuses.
   base::Result<Piece> Append(std::string_view data);
   // Appends the piece to a text.
   base::Status Read(const Piece& piece, std::string& out) const;

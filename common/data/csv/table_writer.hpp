@@ -21,6 +21,7 @@ class TableWriter : private decode::Visitor {
   // Appends the message's rows; `log_time_ns` and `source` (a name) stand for what a message without a header does not
   // say. Wrong input where the payload is no such message: then no row of it is written.
   base::Status Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source);
+  // After the last message. Failed where the disk refuses.
   virtual base::Status Close() = 0;
 
   std::uint64_t messages() const { return messages_; }
@@ -30,8 +31,10 @@ class TableWriter : private decode::Visitor {
  protected:
   // Values lie in the rows of the row sequence, or before or behind it.
   enum class Part { kBefore, kRow, kAfter };
+  // These are called in the order of the message's bytes, from StartMessage to EndMessage.
   virtual void StartMessage() = 0;
   virtual void PutValue(Part part, const Slot& slot, const decode::Value& value) = 0;
+  // A sequence that fills one cell, as its text.
   virtual void PutList(Part part, const Slot& slot, const std::string& list) = 0;
   virtual void StartRow() = 0;
   virtual void DropRow() = 0;  // the newest row, which has no values

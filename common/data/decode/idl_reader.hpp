@@ -16,6 +16,7 @@ namespace rodeira::decode {
 // preprocessor lines …) is refused. Wrong input says "PLACE:LINE: …".
 class IdlTypes {
  public:
+  // `place`: of the text, for messages.
   static base::Result<IdlTypes> Read(std::string_view text, std::string_view place);
 
   // By its full name, "module::Type". Wrong input, with the nearest right name, where there is none.

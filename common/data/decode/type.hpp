@@ -69,7 +69,9 @@ bool IsPlain(Kind kind);
 // Bytes that such a value takes, which is also its alignment in CDR version 1.
 std::uint64_t PlainBytes(Kind kind);
 
+// Precondition: IsPlain(kind).
 TypePtr MakePlain(Kind kind);
+// A bound of 0: none. Lengths are of elements, of a string of its bytes.
 TypePtr MakeString(std::uint64_t bound);
 TypePtr MakeSequence(TypePtr element, std::uint64_t bound);
 TypePtr MakeArray(TypePtr element, std::uint64_t length);

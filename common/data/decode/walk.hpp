@@ -29,6 +29,7 @@ class Visitor {
   virtual void OnValue(const Path& path, Value value) = 0;
   // Before and behind the elements of any other sequence, also where there are none.
   virtual void OnSequence(const Path&, std::uint64_t /*length*/) {}
+  // Behind the last element.
   virtual void OnSequenceEnd(const Path&) {}
 };
 

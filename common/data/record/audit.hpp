@@ -36,7 +36,9 @@ class StepAudit {
 
   // Says how far apart the steps of a source are. Without it the smallest distance seen counts.
   void Declare(const std::string& topic, std::uint64_t source, std::uint64_t period_steps);
+  // The next step of the source, in the order in which it stands in the recording.
   void Add(const std::string& topic, std::uint64_t source, std::uint64_t step);
+  // What has been found so far; more may follow.
   std::map<Key, SourceAudit> Finish() const;
 
  private:

@@ -16,6 +16,7 @@ class ChunkBuilder {
  public:
   ChunkBuilder(Compression compression, int zstd_level);
 
+  // A schema or channel comes before the first message that needs it.
   void Add(const Schema& schema) { PutSchema(records_, schema); }
   void Add(const Channel& channel) { PutChannel(records_, channel); }
   void Add(const Message& message);

@@ -40,6 +40,7 @@ struct Contents {
 
 // A chunk's records, uncompressed, their checksum found right, and the places of its messages.
 struct Chunk {
+  // Where a message lies.
   struct Entry {
     std::uint64_t log_time_ns = 0;
     std::uint64_t offset = 0;  // of the message's record within `records`

@@ -56,6 +56,7 @@ inline constexpr std::uint64_t kFooterBytes = kHeadBytes + 20;
 inline constexpr std::uint64_t kDataEndBytes = kHeadBytes + 4;
 inline constexpr std::uint64_t kMessageHeadBytes = 22;  // of a message's content, before its data
 
+// The first and the last bytes of each file.
 inline std::span<const std::byte> MagicBytes() { return std::as_bytes(std::span(kMagic)); }
 
 // Log time and offset within the uncompressed chunk of one message, in the order of the messages.
@@ -93,8 +94,10 @@ struct SummaryOffset {
 
 // A record's opcode and the place of its length, filled in by EndRecord.
 std::size_t BeginRecord(base::ByteWriter& out, Opcode opcode);
+// `begin`: what BeginRecord returned. What was written since is the record's content.
 void EndRecord(base::ByteWriter& out, std::size_t begin);
 
+// Each appends a whole record, in the form of MCAP's specification.
 void PutHeader(base::ByteWriter& out, const Header& header);
 void PutSchema(base::ByteWriter& out, const Schema& schema);
 void PutChannel(base::ByteWriter& out, const Channel& channel);

@@ -115,6 +115,7 @@ class McapReader {
  public:
   // Wrong input where the file cannot be read or does not begin as an MCAP file.
   static base::Result<McapReader> Open(const std::filesystem::path& path, const ReaderSettings& settings = {});
+  // The same of a file in memory.
   static base::Result<McapReader> OpenBytes(base::Bytes bytes, const ReaderSettings& settings = {});
   McapReader(McapReader&&) noexcept;
   McapReader& operator=(McapReader&&) noexcept;
@@ -131,12 +132,14 @@ class McapReader {
   const std::vector<MetadataInfo>& metadata() const;
   const std::vector<AttachmentInfo>& attachments() const;
 
+  // A record of metadata() or attachments(). Wrong input where it is damaged.
   base::Result<Metadata> ReadMetadata(const MetadataInfo& info) const;
   // Every metadata record of that name, later entries over earlier ones; nothing where there is none.
   base::Result<std::optional<Metadata>> FindMetadata(std::string_view name) const;
   base::Result<Attachment> ReadAttachment(const AttachmentInfo& info) const;
   base::Result<std::optional<Attachment>> FindAttachment(std::string_view name) const;  // the last of that name
 
+  // Those of the query, by log time or in file order.
   MessageCursor Messages(Query query = {}) const;
   // One of chunks(), alone: nothing else of the file is read. Wrong input where it is damaged (it says which times are
   // lost).

@@ -44,6 +44,7 @@ class McapWriter {
  public:
   // Creates the file and writes its header.
   static base::Result<McapWriter> Open(const std::filesystem::path& path, const WriterSettings& settings = {});
+  // The same into another sink, which is empty.
   static base::Result<McapWriter> Open(std::unique_ptr<Sink> sink, const WriterSettings& settings = {});
   // Goes on with a recording of a dead writer, also after it was closed: behind its last whole chunk, which is
   // handed in with those before it as far as tail.span_ns of log time reach; what lay behind (a torn chunk, closing
@@ -67,6 +68,7 @@ class McapWriter {
   // `schema` comes from AddSchema, or is 0 for none. The same four again give the same id. Ids count from 1.
   base::Result<ChannelId> AddChannel(std::string_view topic, SchemaId schema, std::string_view message_encoding,
                                      const TextMap& metadata = {});
+  // Messages may come in any order of time. Wrong input for an unknown channel, or more than kMaxMessageBytes.
   base::Status Write(ChannelId channel, std::uint32_t sequence, std::uint64_t log_time_ns,
                      std::uint64_t publish_time_ns, std::span<const std::byte> data);
   // Metadata and attachments close the current chunk, so that the file keeps the order of the calls. Metadata has no

@@ -23,6 +23,7 @@ class Source {
 
  protected:
   Source(std::string name, std::uint64_t size) : name_(std::move(name)), size_(size) {}
+  // Reads all of `into` from `offset` on. Failed where it cannot.
   virtual base::Status Fill(std::uint64_t offset, std::span<std::byte> into) const = 0;
 
  private:
@@ -30,6 +31,7 @@ class Source {
   std::uint64_t size_;
 };
 
+// Wrong input where the path is no regular file that can be opened.
 base::Result<std::unique_ptr<Source>> OpenFileSource(const std::filesystem::path& path);
 std::unique_ptr<Source> MemorySource(base::Bytes bytes);
 

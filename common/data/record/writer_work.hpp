@@ -21,6 +21,7 @@ class McapWriter::Work {
   Work(std::unique_ptr<Sink> sink, const WriterSettings& settings)
       : sink_(std::move(sink)), settings_(settings), chunk_(settings.compression, settings.zstd_level) {}
 
+  // Writes magic bytes and header. Once a function has failed all others return its Error.
   base::Status Begin();
   // Instead of Begin(): the sink holds `bytes` bytes with this checksum, and this is what they say.
   void GoOn(Contents contents, std::uint64_t bytes, std::uint32_t crc);
@@ -30,13 +31,17 @@ class McapWriter::Work {
   base::Status Write(const Message& message);
   base::Status AddMetadata(std::string_view name, const TextMap& entries);
   base::Status AddAttachment(AttachmentInfo info, std::span<const std::byte> data);
+  // Writes the records gathered so far as a chunk; nothing where there are none.
   base::Status CloseChunk();
+  // All that is written lies on the disk.
   base::Status Sync();
+  // Writes the summary and closes the sink.
   base::Status Finish();
 
   bool closed() const { return closed_; }
   const Statistics& statistics() const { return statistics_; }
   std::uint64_t written_bytes() const { return offset_; }
+  // With the sink's name as its place.
   base::Error Refuse(std::string message) const {
     return base::WrongInput("recording.wrong_message", std::move(message), sink_->name());
   }

@@ -23,6 +23,7 @@
 
 namespace rodeira::driver {
 
+// All that a driver file says.
 struct AutopilotSettings {
   IdmSettings idm;
   SpeedPlanSettings speed{.stop_at_end = true};
@@ -40,6 +41,7 @@ struct AutopilotSettings {
 
 // `rodeira: driver/1`. Problems stay in the file's collection.
 AutopilotSettings ReadAutopilot(const config::Map& root);
+// Wrong input, with place and reason, where the file is missing or faulty.
 base::Result<AutopilotSettings> LoadDriver(const std::filesystem::path& path);
 
 // What the driver perceives.

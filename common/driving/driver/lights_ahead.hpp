@@ -27,6 +27,7 @@ struct LightAhead {
   network::LightColour colour = network::LightColour::kGreen;
 };
 
+// How the driver meets traffic lights.
 struct LightSettings {
   double before_line_m = 0.6;   // here the front stops
   double for_amber_mps2 = 2.8;  // a car that can stop by braking so hard stops at amber (docs/explanation/traffic.md)

@@ -5,6 +5,7 @@
 
 namespace rodeira::driver {
 
+// How the driver turns a wanted acceleration into pedals.
 struct PedalSettings {
   double power_Wpkg = 42.0;        // of the car at full throttle, for the first guess …
   double most_mps2 = 3.5;          // … which at low speed is no more than this

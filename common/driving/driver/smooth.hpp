@@ -23,6 +23,7 @@ double SmoothStop_m(double speed_mps, double acceleration_mps2, double jerk_mps3
 struct StopProfile {
   double speed_mps = 0.0, deceleration_mps2 = 0.0;  // where the way is still to go
 };
+// way_m: still to go; below 0 counts as 0.
 StopProfile StopIn(double way_m, double braking_mps2, double jerk_mps3);
 
 // Whether the deceleration `wanted` (below 0) stops the car sooner than it can stop smoothly by `jerk`, by more than a

@@ -7,6 +7,7 @@
 
 namespace rodeira::driver {
 
+// What bounds the driver's speed.
 struct SpeedPlanSettings {
   double lateral_mps2 = 2.0;   // comfortable in bends: see LateralAllowed
   double vertical_mps2 = 1.5;  // comfortable over crests and through sags: v² |vertical curvature|
@@ -31,6 +32,7 @@ class SpeedPlan {
  public:
   SpeedPlan(const Way& path, const SpeedPlanSettings& settings);
 
+  // The speed that the plan allows, and how it changes along the way.
   struct Allowed {
     double speed_mps = 0.0;
     double slope_1ps = 0.0;  // d speed / d distance; times speed it is the acceleration that keeps to the plan
@@ -53,6 +55,7 @@ class SpeedPlan {
     Even nodes;
     double from_m = 0.0, to_m = 0.0;
   };
+  // The range is huge where no node bounds it.
   Part Around(double d_m) const;
 
  private:

@@ -5,6 +5,7 @@
 
 namespace rodeira::driver {
 
+// How far ahead the driver aims, and how the wheel is turned.
 struct SteeringSettings {
   double preview_s = 0.9;               // the target lies this far ahead in time …
   double preview_least_m = 4.5;         // … at least this far …
@@ -14,6 +15,7 @@ struct SteeringSettings {
   double smoothing_s = 0.06;
 };
 
+// Along the way, m.
 double PreviewDistance(const SteeringSettings& settings, double speed_mps);
 
 // Pure pursuit (Coulter, CMU-RI-TR-92-01): the front wheel angle with a circle that leads the middle of the rear axle,

@@ -46,7 +46,9 @@ class Way {
   virtual ~Way() = default;
   // The largest d; the smallest is 0.
   virtual double length_m() const = 0;
+  // In force at d.
   virtual double SpeedLimit_mps(double d_m) const = 0;
+  // The lane's middle there, seen along the driving direction; d is held within the way.
   virtual LaneFrame At(double d_m) const = 0;
   // p_W and heading_rad of At.
   virtual Eigen::Vector3d MiddleAt(double d_m) const { return At(d_m).p_W; }

@@ -13,6 +13,7 @@ namespace rodeira::manoeuvres {
 // and springs each 10 ms, from its last Initialise on.
 class ForceTrace final : public dynamics::VehicleModel {
  public:
+  // The car outlives it.
   explicit ForceTrace(dynamics::VehicleModel& car) : car_(&car) {}
 
   base::Status Initialise(const dynamics::InitialCondition& initial, ground::Ground& ground) override;

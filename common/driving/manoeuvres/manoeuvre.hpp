@@ -20,6 +20,7 @@ struct Figure {
   std::string unit;
 };
 
+// What came of a manoeuvre.
 struct Outcome {
   plot::Table table;  // over time, each 10 ms
   std::vector<Figure> figures;
@@ -29,6 +30,7 @@ struct Outcome {
   const Figure* Find(std::string_view name) const;
 };
 
+// One of these tests, by its name.
 struct Manoeuvre {
   std::string name;
   std::string what;  // for people, in a line

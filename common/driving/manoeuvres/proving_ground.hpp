@@ -19,6 +19,7 @@ struct ProvingGroundSettings {
   double bump_at_m = std::numeric_limits<double>::infinity();
 };
 
+// SUELO of an endless plane.
 class ProvingGround final : public ground::Ground {
  public:
   explicit ProvingGround(const ProvingGroundSettings& settings) : settings_(settings) {}

@@ -15,6 +15,7 @@ class Trial {
   static base::Result<Trial> Begin(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps,
                                    double step_s);
 
+  // Controls held for one step of the trial.
   void Step(const dynamics::Controls& controls);
 
   double time_s() const { return static_cast<double>(steps_) * step_s_; }

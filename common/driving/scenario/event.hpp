@@ -56,6 +56,7 @@ const EventKind* FindEventKind(std::string_view name);
 // each one, the one that was ahead, or "next": the first that passes.
 struct AgentChoice {
   enum class Kind { kOne, kAll, kAhead, kNext };
+  // The place that agents pass.
   struct At {
     std::string road;
     double s_m = 0.0;  // of the road's axis
@@ -77,6 +78,7 @@ struct PlaceChoice {
   double x_m = 0.0, y_m = 0.0;
   std::optional<double> z_m;
 };
+// Any finite numbers; whether the vehicle exists is not looked at.
 base::Result<PlaceChoice> ParsePlace(std::string_view text);
 // The argument that ParsePlace reads as this place.
 std::string PlaceText(const PlaceChoice& place);
@@ -87,6 +89,7 @@ struct GustChoice {
   double from_deg = 0.0;
   double for_s = 0.0;  // over 0
 };
+// Degrees from -360 to 360, seconds over 0 to 3600.
 base::Result<GustChoice> ParseGust(std::string_view text);
 
 // A tyre of a car, and in how many seconds its pressure changes: "ego front_left 0.5".
@@ -95,6 +98,7 @@ struct TyreChoice {
   std::size_t wheel = 0;  // front left, front right, rear left, rear right
   double over_s = 0.0;
 };
+// Seconds from 0 to 3600.
 base::Result<TyreChoice> ParseTyre(std::string_view text);
 
 // The crossing of a road nearest to a station, and from which side of the road a pedestrian comes: "main 120", "main
@@ -104,6 +108,7 @@ struct CrossingChoice {
   double s_m = 0.0;
   bool from_left = false;
 };
+// Whether the road exists is not looked at.
 base::Result<CrossingChoice> ParseCrossing(std::string_view text);
 
 // Wrong input with what was expected where an event's name, argument or value cannot be obeyed.

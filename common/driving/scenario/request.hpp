@@ -23,6 +23,7 @@ struct Request {
 // The requests for a car at a place, facing a heading (0 is east, counter-clockwise), and for a weather that is reached
 // within `over_s` seconds.
 Request PlaceRequest(const PlaceChoice& place, double heading_deg);
+// The weather's name is not looked at.
 Request WeatherRequest(std::string_view weather, double over_s);
 
 // The event that it becomes. Wrong input where it cannot be obeyed.

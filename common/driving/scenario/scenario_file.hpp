@@ -20,6 +20,7 @@ struct Timing {
   std::int64_t delay = 10;
 };
 
+// An event and the step of its sample.
 struct ScheduledEvent {
   std::int64_t step = 0;
   Event event;
@@ -44,6 +45,7 @@ struct Scenario {
 // Problems stay in the file's collection: a time that is no multiple of the period or before the first sample, times
 // that descend, a name that is no EventKind, an argument or a value that does not belong to it.
 Scenario ReadScenario(const config::Map& root, const Timing& timing);
+// Wrong input, with places, where the file is missing or has problems.
 base::Result<Scenario> LoadScenario(const std::filesystem::path& path, const Timing& timing);
 
 }  // namespace rodeira::scenario

@@ -15,6 +15,7 @@ namespace rodeira::dds {
 // processes may not drive together.
 class ClockGate {
  public:
+  // The run outlives it.
   ClockGate(ClockRun& run, std::uint64_t clock_id);
 
   // A report as it came. What it says goes to clock, watchdog and losses.

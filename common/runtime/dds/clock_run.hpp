@@ -20,6 +20,7 @@ struct ClockRun {
 
   // Since `start`, and since 1970.
   lockstep::Wall Now() const;
+  // Since `start`, of a clock that never jumps.
   std::int64_t NowNs() const { return Now().monotonic_ns; }
   std::int64_t NowMs() const { return NowNs() / 1'000'000; }
   // Since the first grant; 0 before.

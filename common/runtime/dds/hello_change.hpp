@@ -15,6 +15,7 @@ struct HelloChange {
   std::function<void(std::vector<idl::TopicText>&)> type;
   base::Digest mathematics = 0;  // 0: the truth
 };
+// Set it before the first node is opened; it is not guarded by a lock.
 HelloChange& ChangeOfHellos();
 
 }  // namespace rodeira::dds

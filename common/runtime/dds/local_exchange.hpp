@@ -17,10 +17,12 @@ class NodeBus;
 // thread may call it.
 class LocalExchange {
  public:
+  // `nodes`: those of this process. The roster outlives it.
   LocalExchange(const lockstep::Roster& roster, const std::vector<lockstep::NodeIndex>& nodes);
 
   // One of those nodes. The bus outlives all calls of Deliver.
   void Join(lockstep::NodeIndex node, NodeBus& bus);
+  // Whether the node, or the source's node, runs in this process.
   bool Has(lockstep::NodeIndex node) const { return is_here_[node]; }
   bool HasSource(lockstep::SourceIndex source) const { return Has(roster_.source(source).node); }
   // To all nodes of the process that are wired to the sample's source, on the calling thread.

@@ -30,6 +30,7 @@ namespace rodeira::dds {
 // the node stands even while it computes or waits.
 class NodeBus final : public lockstep::Bus {
  public:
+  // Which node it is, and how it speaks.
   struct Settings {
     lockstep::NodeIndex node = 0;
     std::uint32_t incarnation = 0;
@@ -47,6 +48,8 @@ class NodeBus final : public lockstep::Bus {
     LocalExchange* exchange = nullptr;  // with the nodes that share the process; null: there are none
     bool has_sink = false;              // one of them has a file to close
   };
+  // Begins to send heartbeats, on a thread of its own. Fails as Participant::MakeWriter and MakeReader do. Roster and
+  // mailbox outlive the bus.
   static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster,
                                                      lockstep::Mailbox& mailbox, const Settings& settings);
   ~NodeBus() override;
@@ -59,6 +62,7 @@ class NodeBus final : public lockstep::Bus {
   void TakeLocal(const lockstep::Sample& sample);
   // From then on heartbeats carry the runner's report; before, "starting". Null before the runner goes.
   void Follow(const lockstep::Runner* runner);
+  // For the hellos of later heartbeats. Any thread.
   void SetWorldHash(base::Digest hash);
   // Of a recorder: samples valid through it lie in its file. Any thread.
   void SetSafe(lockstep::Step safe);

@@ -14,8 +14,10 @@ namespace rodeira::dds {
 // COMMAND".
 class OperatorCommands {
  public:
+  // Both outlive it.
   OperatorCommands(ClockRun& run, ClockLosses& losses) : run_(run), losses_(losses) {}
 
+  // Does each line in order and says its answer on standard output.
   void Do(const std::vector<std::string>& lines);
   // Ctrl-C in the run's terminal.
   void StopBySignal();

@@ -42,6 +42,7 @@ struct ParsedOptions {
   std::optional<int> leave_with;
 };
 enum class ProgramOf { kClock, kNode, kNodes };
+// `program`: its name in help and errors; `of`: which options it has.
 ParsedOptions ParseOptions(const std::string& program, ProgramOf of, int argc, char** argv);
 
 // In place of the clock where options.follow is set (run_follower.cpp); the exit status comes back.

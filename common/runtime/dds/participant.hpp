@@ -64,6 +64,8 @@ class Participant {
   // Wrong input where the discovery server's port is in use: the library would silently take another.
   static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
   virtual ~Participant() = default;
+  // Both fail where the topic is none of DomainSettings::topics, or the library makes no endpoint. The participant
+  // outlives what it makes.
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;
   virtual base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery,
                                                            OnPayload on_payload) = 0;

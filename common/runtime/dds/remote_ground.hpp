@@ -16,6 +16,7 @@ namespace rodeira::dds {
 // may have been restarted), and gives "outside" once `over` says that the run is.
 class RemoteGround final : public ground::Ground {
  public:
+  // `asker` and `incarnation` tell its answers from others'. Fails as Participant::MakeWriter and MakeReader do.
   static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker,
                                                           std::uint32_t incarnation, std::function<bool()> over);
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;

@@ -28,6 +28,7 @@ class RetransmitServer {
                    Say say);
   ~RetransmitServer();
 
+  // A sample of this node: kept as long as a consumer may ask for it.
   void Keep(const lockstep::Sample& own);
   // Of any node; kept where `keeps_all`. Wrong input where another content is valid at the same step.
   base::Status Remember(const lockstep::Sample& sample);

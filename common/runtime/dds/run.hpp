@@ -28,6 +28,7 @@ struct SharedProcess {
                                             const std::vector<lockstep::NodeIndex>& nodes)>
       prepare;
 };
+// `program`: its name in help and errors.
 int RunSharedProcess(std::string_view program, int argc, char** argv, const SharedProcess& process);
 // The clock. Says on standard output, a line each, how the run goes (docs/reference/run-control.md); SIGINT and SIGTERM
 // stop the run at the last granted step.

@@ -12,6 +12,7 @@
 // `rodeira run` reads it, people may too.
 namespace rodeira::dds {
 
+// The line must hold no newline. It is written at once.
 inline void SayLine(const std::string& line) {
   std::fputs((line + "\n").c_str(), stdout);
   std::fflush(stdout);

@@ -13,6 +13,7 @@ namespace rodeira::dds {
 // Tells external recorders of the start, the end and each marker of a run (idl/trigger.idl).
 class Triggers {
  public:
+  // `run`: the run's name, in each trigger. Fails as Participant::MakeWriter does.
   static base::Result<Triggers> Open(Participant& participant, std::string run, std::int64_t base_step_ns);
   // Start and markers; other remarks are no business of theirs.
   void Say(const lockstep::Remark& remark);

@@ -9,6 +9,7 @@ namespace rodeira::dds {
 // Of all time-outs and periods: monotonic, so that a change of the system time has no effect.
 using WallClock = std::chrono::steady_clock;
 
+// Of one process only: its origin is that of WallClock.
 inline std::int64_t NowMs() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now().time_since_epoch()).count();
 }

@@ -42,6 +42,7 @@ struct NamedReport {
   lockstep::Report report;  // report.node is not set: the name decides
 };
 
+// CDR of idl's types, as the functions below.
 base::Bytes EncodeReport(const NamedReport& report);
 // Wrong input if it cannot be read, and if the sender's type of the report is another one; this names the node.
 base::Result<NamedReport> DecodeReport(const base::Bytes& payload);
@@ -54,6 +55,7 @@ struct NumberedGrant {
 };
 
 base::Bytes EncodeGrant(const NumberedGrant& grant);
+// Wrong input where it cannot be read: it is of another version.
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
 base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question);

@@ -30,6 +30,7 @@ struct Discovery {
 
 // "multicast", "peers", "server".
 std::string_view Word(DiscoveryKind kind);
+// Of the key `kind`; the others of `participants` (1 to 119) and `port`. Problems stay in the file's collection.
 DiscoveryKind ReadDiscoveryKind(const config::Map& map);
 // The parts that a launch file and a laboratory file write in the same way.
 std::uint32_t ReadParticipants(const config::Map& map);

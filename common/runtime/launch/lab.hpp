@@ -28,6 +28,8 @@ struct LabScreen {
 // reads the same.
 class Lab {
  public:
+  // Wrong input, with places, where the file is missing or faulty. Parse: the same of a text; `name` stands for its
+  // file.
   static base::Result<Lab> Load(const std::filesystem::path& path);
   static base::Result<Lab> Parse(std::string_view text, const std::filesystem::path& name);
 

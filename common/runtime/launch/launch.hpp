@@ -47,6 +47,7 @@ class Launch {
   // Wrong input where the file is wrong, a kind is unknown, or the wiring is ambiguous or impossible. Keys below
   // `nodes.X.config` are the node's own and are not looked at here.
   static base::Result<Launch> Load(const std::filesystem::path& path, const Overrides& overrides = {});
+  // The same of a text; `name` is its file in messages, and relative paths are resolved against its folder.
   static base::Result<Launch> Parse(std::string_view text, const std::filesystem::path& name,
                                     const Overrides& overrides = {});
 
@@ -78,6 +79,7 @@ class Launch {
   // Rodeira's topics, and those that manifests of external nodes add.
   const idl::TopicTable& topics() const { return topics_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
+  // Precondition: an index of the roster.
   const LaunchNode& node(lockstep::NodeIndex index) const { return nodes_[index]; }
 
  private:

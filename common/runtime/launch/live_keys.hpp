@@ -30,7 +30,9 @@ struct KeysNow {
   std::map<std::uint32_t, std::uint32_t> presses;  // of each key: how often since the last time that it was asked
   std::vector<std::uint32_t> held;                 // ascending
 
+  // Whether the key is down in any window.
   bool Holds(std::uint32_t key) const;
+  // 0 where it was not pressed.
   std::uint32_t PressesOf(std::uint32_t key) const;
 };
 
@@ -57,7 +59,10 @@ class LiveKeysMemory {
   static constexpr double kSilence_s = 0.5;
   static constexpr double kForget_s = 60.0;
 
+  // A message that is not newer than another one of its window changes nothing. Presses before a window's first message
+  // do not count.
   void Hear(const LiveKeysSaid& said, double now_s);
+  // As LiveKeysReceiver::Take. now_s: of one clock that never jumps.
   KeysNow Take(double now_s);
 
  private:
@@ -79,6 +84,7 @@ std::uint64_t DrawWindow();
 // The border within one process. It outlives what it makes.
 class LiveKeysBoard {
  public:
+  // Any thread may call.
   std::unique_ptr<LiveKeysSender> MakeSender();
   std::unique_ptr<LiveKeysReceiver> MakeReceiver();
 

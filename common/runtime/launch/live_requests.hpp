@@ -35,6 +35,7 @@ class LiveRequestsSender {
   virtual ~LiveRequestsSender() = default;
   // Those that are still wanted, by number; at most kMost. Never waits.
   static constexpr std::size_t kMost = 16;
+  // The list replaces the one of the call before.
   virtual void Say(std::vector<LiveRequest> requests) = 0;
 };
 
@@ -49,6 +50,7 @@ class LiveRequestsReceiver {
 // What the windows have said, each request once. Any thread may call.
 class LiveRequestsMemory {
  public:
+  // Requests with a number that was heard of their window are passed over.
   void Hear(const LiveRequestsSaid& said);
   std::vector<LiveRequest> Take();
 
@@ -61,6 +63,7 @@ class LiveRequestsMemory {
 // The border within one process. It outlives what it makes.
 class LiveRequestsBoard {
  public:
+  // Any thread may call.
   std::unique_ptr<LiveRequestsSender> MakeSender();
   std::unique_ptr<LiveRequestsReceiver> MakeReceiver();
 

@@ -26,6 +26,7 @@ class RunLogReceiver {
 // The border within one process. It outlives what it makes.
 class RunLogBoard {
  public:
+  // It hears what is said from now on. Any thread may call both.
   std::unique_ptr<RunLogReceiver> MakeReceiver();
   void Say(const lockstep::LogBatch& batch);
 

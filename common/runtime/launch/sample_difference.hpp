@@ -18,6 +18,7 @@ namespace rodeira::launch {
 // both digests.
 class SampleDifference {
  public:
+  // The roster outlives it.
   SampleDifference(const lockstep::Roster& roster, idl::TopicTable topics)
       : roster_(roster), topics_(std::move(topics)) {}
   // Call it for samples with contents that differ (lockstep::SameContent).

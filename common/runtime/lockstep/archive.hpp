@@ -16,6 +16,7 @@ namespace rodeira::lockstep {
 // One thread at a time.
 class Archive {
  public:
+  // The roster outlives it.
   explicit Archive(const Roster& roster) : roster_(roster), samples_(roster.sources().size()) {}
 
   // In any order, twice too. Wrong input where another sample of the source is valid at the same step.

@@ -47,6 +47,7 @@ class Clock {
   const Grant& grant() const { return grant_; }
   // The last granted step becomes the last of the run.
   void Stop();
+  // The run ends at once; the grant says the reason. The first reason counts.
   void Abort(std::string reason);
 
   // The next activation of a node; a server has none, it is where the run is (never less than before).
@@ -55,6 +56,7 @@ class Clock {
   Recovery::Decision HandleLoss(NodeIndex node);
   // Another incarnation of the node takes its place; nothing new is granted before it is ready.
   void ExpectRestart(NodeIndex node);
+  // That takes part now; 0: the first.
   std::uint32_t incarnation(NodeIndex node) const {
     return node < grant_.incarnations.size() ? grant_.incarnations[node] : 0;
   }
@@ -62,6 +64,7 @@ class Clock {
   // Where the nodes begin.
   Step first_step() const { return first_step_; }
   const Recovery& recovery() const { return recovery_; }
+  // The newest report of a node of the roster.
   const Report& report(NodeIndex node) const { return reports_[node]; }
   const std::vector<Report>& reports() const { return reports_; }
   const Roster& roster() const { return roster_; }

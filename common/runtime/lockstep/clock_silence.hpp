@@ -15,6 +15,7 @@ class ClockSilence {
   ClockSilence(std::int64_t limit_ms, std::int64_t longest_gap_ms)
       : limit_ms_(limit_ms), longest_gap_ms_(longest_gap_ms) {}
 
+  // A message of the clock has come.
   void Heard(std::int64_t now_ms);
   // Called about every 25 ms. `receives`: since the last call messages could be received. False before the first
   // message.

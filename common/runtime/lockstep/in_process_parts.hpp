@@ -14,7 +14,9 @@ namespace rodeira::lockstep {
 void ReportServices(const Roster& roster, Clock& clock);
 // By source: the nodes that are wired to it.
 std::vector<std::vector<NodeIndex>> ConsumersOf(const Roster& roster);
+// What of the run's settings is this node's.
 Runner::Settings RunnerSettings(const InProcessSettings& settings, NodeIndex node);
+// `fault`: why the run is not ok; empty: it is, if all nodes have finished and the clock has not aborted it.
 RunOutcome OutcomeOf(const Clock& clock, const std::string& fault);
 
 }  // namespace rodeira::lockstep

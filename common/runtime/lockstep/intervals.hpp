@@ -12,6 +12,7 @@ namespace rodeira::lockstep {
 // upper end of its class, at most an eighth too long; below 8 ns exact.
 class Intervals {
  public:
+  // Negative lengths count as 0.
   void Add(std::int64_t length_ns) {
     ++counts_[ClassOf(static_cast<std::uint64_t>(std::max<std::int64_t>(length_ns, 0)))];
     ++all_;

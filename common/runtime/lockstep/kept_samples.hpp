@@ -16,8 +16,10 @@ namespace rodeira::lockstep {
 // seen by all. One thread at a time.
 class KeptSamples {
  public:
+  // Of this node's sources. The roster outlives it.
   KeptSamples(const Roster& roster, NodeIndex node);
 
+  // Precondition: of a source of this node. A sample that is not newer than the source's newest one changes nothing.
   void Add(const Sample& sample);
   // Drops what no consumer can ask for once `grant` is said, not even a recorder that is started again.
   void Granted(const Grant& grant);

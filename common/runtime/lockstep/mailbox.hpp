@@ -29,11 +29,13 @@ struct Gap {
 // law names, so the order of arrival cannot change what it sees.
 class Mailbox {
  public:
+  // The roster outlives it.
   Mailbox(const Roster& roster, NodeIndex node);
 
   // From the bus. A sample that this node is not wired to is ignored, an equal duplicate too. What cannot be (a step
   // that is no multiple of the source's period, two contents for one step) is refused: the sentence says why.
   base::Status Deliver(Sample sample);
+  // A grant that says less than the one that is here changes nothing.
   void DeliverGrant(const Grant& grant);
   // The node ends whatever the clock says: every wait ends with kAborted, and grant() aborts from now on. The first
   // reason counts.
@@ -56,6 +58,7 @@ class Mailbox {
 
   // What has been delivered and not forgotten.
   std::optional<Sample> Kept(SourceIndex source, Step step) const;
+  // Whether the newest grant reaches the step.
   bool IsGranted(Step step) const;
   Grant grant() const;
   // What WaitForInputs(step) still lacks.

@@ -34,8 +34,10 @@ class Pacer {
   void GoOn(std::int64_t now_ns, Step through);
 
   void Pause(std::int64_t now_ns);  // also ends single steps that are not yet granted
+  // The time of the pause is not caught up.
   void Resume(std::int64_t now_ns);
   void AllowSteps(Step steps);  // of a paused run: so many more
+  // From now on; 0 is as fast as possible.
   void SetPace(std::int64_t now_ns, double pace);
 
   // Wall time from `now_ns` until the step behind Limit() is due; 0 where nothing is to be waited for.
@@ -44,6 +46,7 @@ class Pacer {
   std::uint64_t slips() const { return slips_; }
   const Lateness& lateness() const { return lateness_; }
   std::int64_t late_ns() const { return late_ns_; }  // of the step granted last; 0 where none was due
+  // Wall time in pauses, the present one included.
   std::int64_t PausedNs(std::int64_t now_ns) const { return paused_ns_ + (paused_ ? now_ns - paused_at_ns_ : 0); }
   double pace() const { return pace_; }
   bool paused() const { return paused_; }

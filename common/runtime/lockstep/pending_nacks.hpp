@@ -22,6 +22,8 @@ struct Nack {
 // answers are. One thread at a time.
 class PendingNacks {
  public:
+  // Takes the place of an older question of this asker about the source. The one that is being answered changes
+  // nothing.
   void Add(const Nack& question);
   // The next to be answered, of the askers and sources in turn; that one is being answered until the next call. None:
   // all are.

@@ -26,6 +26,7 @@ struct Beginning {
   Step snapshot = 0;
   Step sink_from = 0;
 };
+// `has_through` counts for recorders alone.
 Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, Step has_through);
 
 // Says how a run goes on after the loss of a node, and from where. Pure logic for the clock.
@@ -38,6 +39,7 @@ class Recovery {
   // policies: one for each node, or empty (all kStop).
   Recovery(const Roster& roster, std::vector<Policy> policies);
 
+  // Of a node of the roster.
   Policy policy(NodeIndex node) const { return policies_[node]; }
   // A node may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
   bool restarts() const { return restarts_; }
@@ -45,6 +47,7 @@ class Recovery {
   // Wrong input: the node is to be started again, and says that it cannot save its state. There is no snapshot to begin
   // at, and no node keeps the samples of a whole run, to compute it again from its first step.
   base::Status CheckState(const Report& report) const;
+  // Takes from it whether a node that was started again is back, and of a recorder what its file holds.
   void Heard(const Report& report);
   // For the grant: kNever where no node is started again.
   Step safe() const { return restarts_ ? safe_ : kNever; }
@@ -53,6 +56,7 @@ class Recovery {
   // snapshots and is started again (BeginningOf), for it needs samples of nodes that may be lost with it.
   Step ResumeAt(Step granted) const;
 
+  // What is done about a loss.
   struct Decision {
     Policy policy = Policy::kStop;
     std::string why;  // of a stop that the policy did not ask for

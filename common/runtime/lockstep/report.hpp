@@ -70,6 +70,7 @@ struct Grant {
   std::string reason;  // why it was aborted; where it is over, the clock's closing words, a line each
 };
 
+// One word, as documents have it: "running".
 std::string_view PhaseName(Phase phase);
 
 }  // namespace rodeira::lockstep

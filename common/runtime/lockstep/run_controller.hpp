@@ -46,6 +46,7 @@ class RunController {
   base::Result<std::string> Do(const Command& command, const Wall& now);
   // As the command kStop does, for a signal; before the first step nothing is left but to abort.
   void Stop(const Wall& now);
+  // All nodes stop at once, for this reason.
   void Abort(const std::string& reason, const Wall& now);
   // What went wrong and does not end the run.
   void NoteFault(const std::string& what, const Wall& now) { Note(RemarkKind::kFault, what, now); }

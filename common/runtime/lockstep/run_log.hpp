@@ -73,6 +73,7 @@ class RunLog {
   static constexpr std::int64_t kBatch_ns = 50'000'000;  // wall times wait for company, remarks do not
   static constexpr std::size_t kBatchEntries = 256;
 
+  // It is taken with others, within kBatch_ns.
   void Add(const WallTime& wall) { next_.walls.push_back(wall); }
   // Numbers it; the number comes back.
   std::uint32_t Add(Remark remark);
@@ -93,6 +94,7 @@ class RunLog {
 class KeptLog {
  public:
   static constexpr std::size_t kMost = 2000;
+  // In ascending order of their numbers.
   void Add(const LogBatch& batch);
   // Those from `number` on, at most 64 at a time: a reader that lacks more asks again.
   std::vector<LogBatch> From(std::uint64_t number) const;
@@ -105,6 +107,7 @@ class KeptLog {
 // incarnation of the clock had not said is lost with it. Any thread may call.
 class LogInbox {
  public:
+  // One that is here already changes nothing.
   void Deliver(LogBatch batch);
   // Earlier ones are there already, in a file.
   void BeginAt(std::uint64_t number);

@@ -19,6 +19,7 @@ namespace rodeira::lockstep {
 // The only loop of the system (law L3): first samples, ready, one activation after the other, finish.
 class Runner {
  public:
+  // Where and how the node begins.
   struct Settings {
     std::uint32_t incarnation = 0;
     Step snapshot_every = 0;  // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
@@ -31,6 +32,7 @@ class Runner {
   // kFailed: refused and lost too; report().phase says which.
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
 
+  // All references outlive it. `index`: of the node in the roster.
   Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings);
 
   // Runs to the end on the calling thread.
@@ -45,6 +47,7 @@ class Runner {
   Report report() const;
   // The node waits for a server's answer (SUELO): not its own time. Called by the requester, on the runner's thread.
   void BeginServerCall();
+  // The answer has come, or the run is over.
   void EndServerCall();
 
  private:

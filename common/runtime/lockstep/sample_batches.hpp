@@ -23,6 +23,7 @@ class SampleBatches {
   // With `most_bytes` of payload in it a batch is complete, whatever else will come.
   SampleBatches(const Roster& roster, NodeIndex producer, std::size_t most_bytes);
 
+  // For one consumer.
   struct SampleBatch {
     NodeIndex to = 0;
     std::vector<Sample> samples;  // in the order in which they were added

@@ -25,6 +25,7 @@ struct Snapshot {
   base::Bytes Encode() const;
   // As a sample of the snapshot source (idl/snapshot.idl): CDR with the header, this, and padding of zeros.
   Sample ToSample(const Roster& roster, std::uint32_t incarnation) const;
+  // Wrong input where the payload is no snapshot.
   static base::Result<Snapshot> FromSample(std::span<const std::byte> payload);
   // Wrong input: cut short, of another node's shape, or left-over bytes.
   static base::Result<Snapshot> Decode(std::span<const std::byte> bytes);

@@ -18,6 +18,7 @@ namespace rodeira::lockstep {
 // RunThreaded.
 class SteppedRun {
  public:
+  // What a run begins with, and what is told of it.
   struct Settings {
     std::vector<Snapshot> resume;                  // of Beginning(), one for each node; empty: the nodes' Initialise
     std::function<void(const Sample&)> on_sample;  // every sample published, without snapshots

@@ -19,6 +19,7 @@ class UnavailableNodes {
   void Heard(NodeIndex node, std::int64_t now_ns);
   // Another incarnation takes its place.
   void Restarted(NodeIndex node) { missed_.erase(node); }
+  // Whether the run waits for this node.
   bool Has(NodeIndex node) const { return missed_.contains(node); }
   bool empty() const { return missed_.empty(); }
   // "node 'a' was killed … 3.2 s ago; node 'b' …".

@@ -16,11 +16,13 @@ namespace rodeira::lockstep {
 // waits.
 class Watchdog {
  public:
+  // Bounds, each over 0.
   struct Settings {
     std::int64_t silence_ms = 600;    // longest time without a report
     std::int64_t deadline_ms = 5000;  // longest wall time of one step, where the node names none of its own
     std::int64_t start_ms = 60000;    // longest time until all are ready, and until a node has written what it made
   };
+  // A node, and what is wrong with it.
   struct Fault {
     NodeIndex node = 0;
     std::string reason;   // a sentence that names the node
@@ -28,7 +30,9 @@ class Watchdog {
     bool silent = false;  // it is not heard; its process may tell more
   };
 
+  // The roster outlives it.
   Watchdog(const Roster& roster, const Settings& settings);
+  // Every report, also one that says nothing new. now_ms: of one clock that never jumps.
   void Heard(const Report& report, std::int64_t now_ms);
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
   // calls (the clock itself was stopped, or had no processor for a sixth of the silence) is no node's silence and is

@@ -21,6 +21,7 @@ struct Difference {
   std::string recorded;
   std::string computed;
 
+  // One sentence, with recorded and computed value.
   std::string Text() const;
 };
 
@@ -31,6 +32,7 @@ class Comparison {
   // Samples valid before `from` are not compared. `trusted`: nodes with samples from the recording itself.
   Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted);
 
+  // A sample that the run has computed; the first difference by step and source is kept.
   void Take(const lockstep::Sample& computed);
   // Once all nodes have stopped: samples that were recorded up to `through`, and were not computed, are a difference
   // too.

@@ -10,6 +10,7 @@ struct BodySize {
   double wheelbase_m = 0.0;
   double reach_m = 0.0;  // from the middle to a corner
 
+  // All over 0.
   static BodySize Of(double length_m, double width_m, double wheelbase_m);
 };
 

@@ -57,9 +57,11 @@ class Corridors {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
+  // The graph outlives it.
   explicit Corridors(const lanes::Graph& graph);
 
   const Corridor& operator[](std::uint32_t index) const { return corridors_[index]; }
+  // The track that the corridor is a part of.
   std::uint32_t TrackOf(std::uint32_t index) const { return tracks_[index]; }
   // That beside which d of a track lies.
   std::uint32_t At(std::uint32_t track, double d_m);

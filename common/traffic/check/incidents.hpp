@@ -17,6 +17,7 @@ class Incidents {
  public:
   static constexpr std::size_t kMax = 20;
 
+  // The network outlives it.
   explicit Incidents(const network::Network& network) : network_(network) {}
 
   // `what`: a format of fmt for the values.
@@ -25,6 +26,7 @@ class Incidents {
     if (sentences_.size() >= kMax) return;
     sentences_.push_back(Place(time_s, pose) + fmt::format(fmt::runtime(what), values...));
   }
+  // The id of the road that the vehicle is on.
   const std::string& RoadOf(const AgentPose& pose) const {
     return network_.roads()[static_cast<std::size_t>(pose.road)].id();
   }

@@ -17,13 +17,16 @@ namespace rodeira::traffic {
 // Finds vehicles with a middle beside every drivable lane, and wheels beside all that is there for vehicles.
 class RoadCheck {
  public:
+  // Nothing in it: the vehicle is on the road.
   struct Finding {
     std::optional<double> beside_m;  // from the middle to the nearest road, where the middle is on no drivable lane
     boost::container::static_vector<Eigen::Vector3d, 4> wheels_W;  // those beside the road
   };
 
+  // The graph outlives it.
   RoadCheck(const lanes::Graph& graph, std::size_t vehicles);
 
+  // Vehicles may come in any order; numbers are below `vehicles`.
   Finding Find(const AgentPose& pose, const BodySize& body);
 
  private:

@@ -60,6 +60,7 @@ class Spawning {
   };
   Spawning(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Whether it waits to come onto its lane.
   bool IsSpawning(std::uint32_t id) const;
   // Whether it ever could; Wrong input as Spawn's.
   base::Status CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const;
@@ -68,6 +69,7 @@ class Spawning {
   // for it. Wrong input with a sentence where there can never be room; false where it is on the road already, or waits
   // to be.
   base::Result<bool> Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
+  // Vehicles with room come onto the road; the others go on waiting.
   void SpawnAll();
 
  private:

@@ -27,8 +27,11 @@ class Arriving {
   };
   Arriving(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Before the first Arrive: draws when each flow's first vehicle comes.
   void BeginFlows();
+  // All that come before this time, ns since the run's beginning. Those without a free vehicle come later.
   void Arrive(std::int64_t until_ns);
+  // Of its present flow; drawn by the settings' seed, so that each call gives the same.
   AgentTraits TraitsFor(std::uint32_t id) const;
 
  private:

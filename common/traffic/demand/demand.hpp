@@ -52,6 +52,7 @@ class Route {
 // What is asked of a network: which vehicles come where, and where to.
 class Demand {
  public:
+  // A flow of the settings, with its indices in the network.
   struct Flow {
     std::int64_t track = -1;  // where it comes; below 0: by lot where traffic enters
     std::int64_t route = -1;
@@ -63,6 +64,7 @@ class Demand {
                                    const DemandSettings& settings);
 
   const std::vector<Flow>& flows() const { return flows_; }
+  // Precondition: a number of Flow::route that is not below 0.
   const Route& route(std::int64_t number) const { return routes_[static_cast<std::size_t>(number)]; }
   // By what chance the links of a track are taken, one after the other added up to 1; empty: all alike.
   std::span<const double> Shares(std::uint32_t track) const {

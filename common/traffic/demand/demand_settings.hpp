@@ -43,6 +43,7 @@ struct TurnSettings {
   std::string place;
 };
 
+// What a traffic file says of which vehicles come where.
 struct DemandSettings {
   std::vector<FlowSettings> flows;
   std::vector<RouteSettings> routes;

@@ -71,6 +71,7 @@ class Entering {
   void Leave(std::uint32_t id);
   // It leaves wherever it is, and does not enter again.
   void Remove(std::uint32_t id);
+  // In each step: at each entry the first vehicle that waits comes, if there is room for it.
   void Enter();
 
  private:

@@ -25,6 +25,7 @@ class CarFollowing {
   // The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable
   // from where it must.
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
+  // The acceleration of the IDM in m/s²: behind a leader at a gap within sight; else by the limit alone.
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
   // What a follower does behind a leader.
   double FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const;

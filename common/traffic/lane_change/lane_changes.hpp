@@ -53,6 +53,7 @@ class LaneChanges {
   bool NeedsSlowChange(std::uint32_t id) const;
   // Whether it is to go round a vehicle that stands before it.
   bool GoesRound(std::uint32_t id) const;
+  // Not in junctions, and not while zones ahead are granted to it or are due.
   bool MayLeaveLane(std::uint32_t id, bool even_slowly = false) const;
   // Changes to the lane beside.
   void ChangeLanes(std::int64_t step_ns);

@@ -15,6 +15,7 @@ dynamics::BicycleSettings CarOf(const AgentTraits& traits);
 
 // The same by AgentTraits::body, made once.
 const dynamics::BicycleSettings& CarOfBody(std::uint32_t body);
+// The planar car of those settings.
 const PlanarCar& PlanarCarOfBody(std::uint32_t body);
 
 // The least g track / (2 height of the centre of mass) of all bodies that there may be any of: so much sideways tips

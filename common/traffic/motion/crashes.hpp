@@ -35,6 +35,7 @@ class Crashes {
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
   // 1 mm/s is nothing to it as long as it drives; nothing happens to one that is not there.
   void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
+  // All crashed vehicles slide on for dt_s.
   void StepCrashed(double dt_s);
 
  private:

@@ -23,6 +23,7 @@ struct Torques {
   double full_Nm = 0.0, drag_Nm = 0.0;
 
   Torques(const dynamics::EngineSettings& engine, double radps);
+  // At the flywheel, N m; throttle from 0 to 1. Negative: the engine brakes.
   double Net(double throttle) const { return throttle * (full_Nm + drag_Nm) - drag_Nm; }
 };
 
@@ -34,6 +35,7 @@ class PlanarCar {
 
   const dynamics::BicycleSettings& settings() const { return *settings_; }
   int gears() const { return static_cast<int>(ratios_.size()); }
+  // Gears beyond the ends count as the nearest one.
   double Ratio(int gear) const {
     return ratios_[static_cast<std::size_t>(std::clamp(gear, 1, gears()) - 1)];
   }  // the engine's speed over the wheels'
@@ -69,6 +71,7 @@ struct Driven {
   Driving driving;
   double acceleration_mps2 = 0.0, fuel_mgps = 0.0;
 };
+// Speed in m/s, forward; the grade is positive uphill; `before`: of the last step.
 Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade,
              double dt_s);
 

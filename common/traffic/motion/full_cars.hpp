@@ -31,6 +31,7 @@ class FullCars {
 
   // INI of an agent's car; refused as by BicycleModel::Initialise.
   base::Status Place(std::uint32_t id, std::uint32_t body, const dynamics::InitialCondition& initial);
+  // Its car is gone; the place is free.
   void Clear(std::uint32_t id) { cars_.Clear(id); }
 
   // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of
@@ -42,13 +43,17 @@ class FullCars {
   void Step(double dt_s, base::ThreadPool* pool);
 
   const dynamics::CarArray& cars() const { return cars_; }
+  // Of the last step.
   const dynamics::Controls& controls(std::uint32_t id) const { return controls_[id]; }
   const driver::Pedals& foot(std::uint32_t id) const { return feet_[id]; }
   // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion
   // where it slides, and below 0 where it rolls back. At less than a millimetre a second it stands.
   double PlanSpeed_mps(std::uint32_t id) const;
+  // The middle of the rear axle, seen from above.
   Eigen::Vector2d RearAxle_W(std::uint32_t id) const;
+  // What pedals, gear and engine do now.
   Driving DrivingOf(std::uint32_t id) const;
+  // Now, and since Place.
   double FuelFlow_mgps(std::uint32_t id) const { return 1e6 * cars_.car(id).powertrain.engine().fuel_rate_kgps(); }
   double FuelUsed_mg(std::uint32_t id) const { return 1e6 * cars_.car(id).powertrain.engine().fuel_kg(); }
   // Pose, steer angle, spin of its wheels.

@@ -34,6 +34,7 @@ class FullMotion {
   void StartFull(std::shared_ptr<ground::Ground> ground);
   // With its axles' middles over the path, rolling along it.
   base::Status PlaceFull(std::uint32_t id);
+  // Finds pedals and steering for the coming dt_s; the cars move in FullCars::Step.
   void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);
   // Where its path has brought it, after the physics' step.
   void FollowFull(std::uint32_t id, double dt_s);

@@ -41,6 +41,7 @@ class Motion {
   };
   Motion(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // All driving vehicles, over dt_s, by the accelerations that were found for this step.
   void Move(double dt_s);
 
  private:

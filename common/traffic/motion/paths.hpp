@@ -28,6 +28,7 @@ class Paths {
   // The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has
   // missed.
   std::uint32_t Follow(std::uint32_t id);
+  // Whether its front has come to where its last lane ends or is too narrow for it.
   bool AtTheEnd(std::uint32_t id) const;
 
  private:

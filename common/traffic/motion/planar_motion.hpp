@@ -28,6 +28,7 @@ class PlanarMotion {
   };
   PlanarMotion(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Brings near what vehicles with numbers a little above this one will read; changes no result.
   void FetchBend(std::size_t id) const;
   // The pedals for the acceleration, and what they give, held over the step; a car that comes to rest stays at rest.
   void MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s);

@@ -37,7 +37,9 @@ class Poses {
 
   // The axles' middles stand on the path, on the road's surface; the lean across is that of the surface.
   AgentPose PoseOf(std::uint32_t id) const;
+  // Level, at the height where it crashed.
   AgentPose PoseOfCrashed(std::uint32_t id) const;
+  // Of all on the road and crashed, by ascending id.
   void FindPoses();
 
  private:

@@ -51,6 +51,7 @@ struct MotorsCar {
   int gears = 5;
 };
 
+// One driver of MOTORS: steering, pedals and gears.
 class MotorsDriver {
  public:
   // Drawn at random by the caller: responsiveness 0.5 to 1, aggression 3 to 4 degrees a frame.
@@ -59,6 +60,7 @@ class MotorsDriver {
 
   // The car drives in this gear.
   void Begin(int gear);
+  // Once a frame; positive steering is to the left.
   dynamics::Controls Step(const MotorsView& view, const MotorsCar& car, double dt_s);
 
   double steer_rad() const { return steer_rad_; }

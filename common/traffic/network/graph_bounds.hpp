@@ -12,6 +12,7 @@ struct GraphBounds {
   double west_m = 1e18, south_m = 1e18, east_m = -1e18, north_m = -1e18;
 };
 
+// Without a track west is above east.
 inline GraphBounds BoundsOf(const lanes::Graph& graph) {
   GraphBounds bounds;
   for (const lanes::Track& track : graph.tracks()) {

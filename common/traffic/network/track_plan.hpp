@@ -14,6 +14,7 @@ namespace rodeira::traffic {
 // One track as a way, for what is computed along it.
 class TrackWay final : public driver::Way {
  public:
+  // The graph outlives it.
   TrackWay(const lanes::Graph& graph, std::uint32_t track) : graph_(&graph), track_(track) {}
 
   double length_m() const override { return curve().length_m(); }

@@ -42,12 +42,14 @@ struct PassCase {
   double back_s = 0.0, back_least_m = 0.0;
   double length_m = 0.0;
 };
+// How the pass goes.
 struct PassPlan {
   double time_s = 0.0;     // until its rear is on its own side …
   double way_m = 0.0;      // … and how far its front then has come but for its length
   double speed_mps = 0.0;  // when it begins to go back
   double gaining_s = 0.0;  // until then
 };
+// Times in s from now; a pure function of the case.
 PassPlan PlanPass(const PassCase& at);
 
 // How far along a lateral path of degree five a share of its width is reached: u of 10 u³ - 15 u⁴ + 6 u⁵ = share, in

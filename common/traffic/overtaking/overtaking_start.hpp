@@ -48,6 +48,7 @@ class OvertakingStart {
 
   // While it overtakes it is in more of a hurry, and comes nearer to its leader.
   driver::IdmSettings IdmOf(std::uint32_t id) const;
+  // Begins to overtake where it is held up, sees the oncoming lane free for long enough, and may.
   void ThinkOfOvertaking(std::uint32_t id);
   // The odometer where a vehicle that is no agent stands before it, or could soon if it is slower than `below_mps`, far
   // from a junction, if it may be passed on the lane of oncoming traffic.
@@ -58,6 +59,7 @@ class OvertakingStart {
     Piece piece;
     double clear_m = 0.0;
   };
+  // Precondition: it is on its path out of the lane.
   std::optional<RestOut> ShorterRest(std::uint32_t id, const Leader& passed) const;
   // The least that it may, and wants to, drive between two odometers.
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;

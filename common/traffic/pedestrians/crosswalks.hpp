@@ -47,6 +47,7 @@ class Crosswalks {
   // The speed from which an entering car can stop before the first crossing at which a pedestrian walks or waits; below
   // 0 where it would stand on one.
   double AtMostForPeople(std::uint32_t id) const;
+  // Wrong input where the traffic has no pedestrians, or the road no crossing.
   base::Status CheckSpawnPedestrian(std::string_view road, double s_m) const;
   // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input
   // where there is none, or the settings have no `pedestrians`.

@@ -42,6 +42,7 @@ class Pedestrians {
   static constexpr double kLength_m = 0.4, kWidth_m = 0.5;
   static constexpr double kStrideRadius_m = 0.24;
 
+  // A pedestrian, walking or waiting.
   struct Person {
     bool present = false;  // between arrival and end; else the place is free for another one
     bool walks = false;    // has been let go
@@ -58,6 +59,7 @@ class Pedestrians {
     void Save(base::StateWriter& writer) const;
     void Restore(base::StateReader& reader);
   };
+  // Of one side of a crossing.
   struct Count {
     std::uint32_t arrived = 0, left = 0;
     std::uint32_t flowed = 0;   // of those that have arrived: not called
@@ -78,6 +80,7 @@ class Pedestrians {
   struct OnTrack {
     std::uint32_t crossing = 0, pass = 0;
   };
+  // Precondition: a track of the graph.
   const std::vector<OnTrack>& OfTrack(std::uint32_t track) const { return (*of_track_)[track]; }
 
   // Whether a pedestrian stands at the kerb of a crossing, ready to go.
@@ -97,6 +100,7 @@ class Pedestrians {
 
   // Of all that are seen, ascending by id.
   std::vector<PersonPose> Poses() const;
+  // The same as rectangles of kLength_m by kWidth_m.
   std::vector<driver::Footprint> Footprints() const;
   const std::vector<Person>& people() const { return people_; }
   const std::vector<Count>& counts() const { return counts_; }

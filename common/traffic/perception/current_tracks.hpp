@@ -22,8 +22,11 @@ class CurrentTracks {
   };
   CurrentTracks(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Brings the cache up to date with the vehicle's place. Once a step, before the others are called.
   void LookBelow(std::uint32_t id);
+  // FrameAt of its path, quicker on the track that it is on.
   PathFrame FrameOf(std::uint32_t id, double odometer_m) const;
+  // Whether the track has a lane beside it, on either side.
   bool HasBeside(std::uint32_t id, std::uint32_t track) const;
   // The straight on which all of it is, beside no line; null where there is none, or where its surface twists.
   const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;

@@ -50,9 +50,11 @@ class Observation {
 
   // It is seen on the lane of oncoming traffic, and the one passed keeps its speed.
   void ShowToOncoming(std::uint32_t id);
+  // A vehicle is on this track: one on a track that diverges from it must look for leaders here, too.
   void Part(std::uint32_t track);
   // Sight: which vehicle is where.
   void See(std::span<const driver::Footprint> others);
+  // Of all driving vehicles, on their ways as far as they see.
   void FindLeaders();
 
  private:

@@ -25,12 +25,15 @@ class Occupancy {
 
   // Once for all of a step.
   void Clear();
+  // Behind Clear, in any order.
   void Add(std::uint32_t track, const Occupant& occupant) { added_.emplace_back(track, occupant); }
+  // Ends the adding; On and Beyond hold from then on.
   void Sort();
   // One more, after Sort. What On has given before holds no more.
   void Insert(std::uint32_t track, const Occupant& occupant);
 
   const std::vector<std::uint32_t>& taken() const { return taken_; }  // tracks with a vehicle
+  // Ascending by middles; valid until the next Insert or Clear.
   std::span<const Occupant> On(std::uint32_t track) const {
     return {all_.data() + places_[track].begin, places_[track].count};
   }

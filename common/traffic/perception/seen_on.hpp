@@ -16,13 +16,16 @@ namespace rodeira::traffic {
 
 inline constexpr double kWithout_m = 1e-9;  // odometers nearer to one another are equal
 
+// `blocks` is by track; any_block: false where none of them has one.
 inline std::span<const Block> BlocksOn(bool any_block, std::span<const std::vector<Block>> blocks,
                                        std::uint32_t track) {
   return any_block ? std::span<const Block>(blocks[track]) : std::span<const Block>();
 }
+// Of a track, m; the cache spares a look into the graph.
 inline double LengthOf(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.length_m : graph[track].length_m();
 }
+// Whether any track follows.
 inline bool GoesOn(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.goes_on : !graph[track].next.empty();
 }

@@ -79,6 +79,7 @@ struct OncomingOvertaker {
   double front_m = 0.0, rear_m = 0.0;
 };
 
+// The next vehicle on a vehicle's way. gap_m: from its front to the leader's rear.
 struct Leader {
   double gap_m = 1e9;
   double speed_mps = 0.0;

@@ -27,6 +27,7 @@ class Ways {
   };
   Ways(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // How far along its way it looks, m from its middle.
   double SightOf(const Agent& agent) const;
   // Whether its stretches go as far as that, or to the end of its way.
   bool SeesTo(std::uint32_t id, double odometer_m) const;

@@ -17,6 +17,7 @@ class LaneIntervals {
     std::int64_t in = 0, out = 0;                   // middles that came onto it, and left it
     std::int64_t queue_longest = 0, queue_sum = 0;  // vehicles slower than 5 km/h, over the looks
   };
+  // A stretch of time, by track.
   struct Interval {
     double from_s = 0.0, to_s = 0.0;
     std::int64_t looks = 0;  // at queues

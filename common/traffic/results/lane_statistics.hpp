@@ -40,6 +40,7 @@ struct LaneTrip {
   double waiting_s = 0.0;  // slower than kWaiting_mps
 };
 
+// Vehicles of a lane: there at the beginning, come, and gone.
 struct LaneCount {
   std::int64_t began = 0, in = 0, out = 0;
 
@@ -67,6 +68,7 @@ class LaneStatistics {
     if (pending_) PourAll();
     return {cells_.data() + tracks_[track].first, tracks_[track].count};
   }
+  // All cells of a track are equally long.
   double CellLength_m(std::uint32_t track) const { return tracks_[track].cell_m; }
   // In the middle of a cell, whatever was there (TrafficModel::FreeSpeed_mps).
   double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[tracks_[track].first + cell]; }

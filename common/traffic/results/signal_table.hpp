@@ -15,6 +15,7 @@ class SignalTable {
  public:
   explicit SignalTable(const lanes::Graph& graph);
 
+  // The first line of the table.
   static const char* Header() { return "time_s,head,colour,road,lane,x_m,y_m,heading_rad,width_m\n"; }
   // Rows for what has changed since the last call.
   std::string At(double time_s, const TrafficModel& model);

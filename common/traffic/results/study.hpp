@@ -15,6 +15,7 @@
 
 namespace rodeira::traffic {
 
+// How a run of the model alone is done and watched.
 struct StudySettings {
   TrafficSettings traffic;
   double duration_s = 60.0;

@@ -18,7 +18,9 @@ class TrajectoryDiagram {
   // The track must be one of the model's.
   explicit TrajectoryDiagram(std::uint32_t track) : track_(track) {}
 
+  // After a step; time_s ascends.
   void Add(double time_s, const TrafficModel& model);
+  // A whole SVG document of what has been added so far.
   std::string ToSvg(const lanes::Graph& graph, const std::string& title) const;
 
  private:

@@ -15,6 +15,7 @@ namespace rodeira::traffic {
 // the free speed of each place that its driver would drive. `departDelay` is -1: not known.
 class TripInfos {
  public:
+  // The XML before the first trip, and behind the last one.
   static std::string Begin();
   static std::string End();
   // Looks at all vehicles at a moment, in ascending time. Returns the trips that have ended since the last one.

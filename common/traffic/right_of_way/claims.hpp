@@ -42,6 +42,7 @@ class Claims {
   };
   Claims(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Brings near what HoldZones of this vehicle will read; changes no result.
   void FetchZones(std::size_t id) const;
   // Its own are the zones that are granted to it and those that it stands in.
   void HoldZones(std::uint32_t id);

@@ -38,6 +38,7 @@ class Deadlocks {
   };
   Deadlocks(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Ends every cycle that there is in this step.
   void ResolveDeadlocks();
 
  private:

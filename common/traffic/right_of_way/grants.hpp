@@ -43,9 +43,11 @@ class Grants {
   };
   Grants(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // It has waited longer than kPriorityWait_s, or waits within a junction at a light that is no longer green.
   bool Urgent(std::uint32_t id) const;
   // Whether the holder of the zone takes up the same room behind it, and does not go round there.
   bool TakesRoom(const Crossing& crossing) const;
+  // Whether another vehicle keeps it out of a zone of its passage. `heeded`: one that has waited longer does so, too.
   bool IsHeld(std::uint32_t id, bool heeded = false);
   // Grants the passage unless a vehicle is in its way: holds one of the zones or, where the agent has to yield, comes
   // to one or has waited longer.

@@ -36,6 +36,8 @@ class Passages {
   };
   Passages(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // The plan's speed there by its driver's factor, m/s; 0 without a way. `place`, 0 or 1: where the answer is kept for
+  // the next call.
   double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);
   // One that must know now looks on to where it would stand, however slowly it drives: where zones are longer than it
   // sees, the next ones may begin where those end, and one with the first ones alone would stand in them.

@@ -32,6 +32,7 @@ class ReservationTable {
 
   void Clear();  // all, for the next step
 
+  // The number of a side, 0 or 1, of a zone.
   static std::size_t Side(std::size_t zone, std::size_t side) { return 2 * zone + side; }
   void Hold(std::size_t zone, std::size_t side, const Reservation& holder) { holders_.Add(Side(zone, side), holder); }
   Lists<Reservation>::Range ReservationsOf(std::size_t zone, std::size_t side) const {
@@ -40,6 +41,7 @@ class ReservationTable {
   void Come(std::size_t zone, std::size_t side, const ApproachingVehicle& comer) {
     comers_.Add(Side(zone, side), comer);
   }
+  // In the order in which they were told.
   Lists<ApproachingVehicle>::Range ApproachingTo(std::size_t zone, std::size_t side) const {
     return comers_.Of(Side(zone, side));
   }

@@ -10,6 +10,7 @@ double TravelTime(double distance_m, double speed_mps, double most_mps, double s
 struct Setting {
   double acceleration_mps2 = 0.0, jerk_mps3 = 3.0;
 };
+// jerk_mps3 is over 0.
 double TravelTime(double distance_m, double speed_mps, double most_mps, double start_mps2, const Setting& off);
 
 }  // namespace rodeira::traffic

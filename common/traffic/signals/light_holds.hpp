@@ -22,6 +22,7 @@ struct LightHold {
   std::int64_t lead_to_ns = 0, main_to_ns = 0, amber_to_ns = 0;  // amber behind a green until the third
   std::int64_t end_ns = 0;                                       // red until here, from here on the plan
 
+  // Precondition: before end_ns.
   network::LightColour At(std::int64_t time_ns) const;
 };
 
@@ -35,6 +36,7 @@ class LightHolds {
   std::span<const LightHold> all() const { return holds_; }
   // In place of the controller's own, if it has one.
   void Set(const LightHold& hold);
+  // Those with an end at or before this time.
   void DropEnded(std::int64_t time_ns);
 
   // Nothing is written where there are no holds.

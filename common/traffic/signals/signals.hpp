@@ -32,6 +32,7 @@ class Signals {
   };
   Signals(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
+  // Of the network's controller with this index, in this step.
   bool IsGreen(std::int64_t light) const {
     return out_.colours[static_cast<std::size_t>(light)] == network::LightColour::kGreen;
   }
@@ -40,6 +41,7 @@ class Signals {
     const auto index = static_cast<std::size_t>(light);
     return in_.holds.At(static_cast<std::uint32_t>(light), *in_.map.network->controllers()[index].times, time_ns);
   }
+  // What all controllers show in this step; red for those without times.
   void FindColours();
   // The first line of a track beyond a place with a light that is not green, if a car from there with this speed can
   // stop before it; far away where there is none.

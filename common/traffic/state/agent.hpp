@@ -141,6 +141,7 @@ struct PathFrame {
   double offset_m = 0.0;  // from the track's middle, and its slope
   double slope = 0.0;
 };
+// Precondition: the path is not empty. Before its first piece that one is drawn on.
 PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m);
 // The piece on which an odometer lies, and the path there by the point of that piece's track.
 inline const Piece& PieceAt(const Path& path, double odometer_m) {
@@ -149,6 +150,7 @@ inline const Piece& PieceAt(const Path& path, double odometer_m) {
   while (i > 0 && path[i].begin_m > odometer_m) --i;
   return path[i];
 }
+// `at`: the curve's point at the odometer's place on the piece's track.
 PathFrame FrameOn(const Piece& piece, const lanes::CurvePoint& at, double odometer_m);
 
 // The piece that begins at the end of the path's last one and goes on by a link, joining the new middle comfortably.

@@ -16,6 +16,7 @@ enum class LeaveReason : std::uint8_t {
 };
 inline constexpr std::size_t kLeaveReasons = 5;
 
+// A vehicle that has left the road in this step.
 struct Leaver {
   std::uint32_t id = 0;
   LeaveReason reason = LeaveReason::kNetworkEnd;

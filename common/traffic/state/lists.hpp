@@ -19,10 +19,12 @@ class Lists {
  public:
   explicit Lists(std::size_t keys) : firsts_(keys, kNone) {}
 
+  // All lists become empty.
   void Clear() {
     for (const Entry& entry : entries_) firsts_[entry.key] = kNone;
     entries_.clear();
   }
+  // Precondition: key is below the number of keys.
   void Add(std::size_t key, const Item& item) {
     std::uint32_t* at = &firsts_[key];
     while (*at != kNone) at = &entries_[*at].next;
@@ -44,6 +46,7 @@ class Lists {
     const Lists* lists_;
     std::uint32_t at_;
   };
+  // A list's items; valid until the next Add or Clear.
   struct Range {
     Iterator first, last;
     Iterator begin() const { return first; }

@@ -94,6 +94,7 @@ struct AgentTraits {
 inline constexpr std::uint32_t kBodies = 8;
 // Kind and measures of a body, all else as it is without draws.
 AgentTraits TraitsOfBody(std::uint32_t body);
+// Drawn from the mix by the settings' seed and the key alone: the same key gives the same traits.
 AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key);
 // By its number: of the mix, or of the kind that is said where a scenario lets it appear.
 AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id);

@@ -19,6 +19,7 @@ inline constexpr double kNoBarrier_m = 1e18;  // odometer of a barrier that is n
 inline double FrontOf(const Agent& agent, const AgentTraits& traits) { return agent.o_m + 0.5 * traits.length_m; }
 // From the odometer's place to each axle.
 inline double HalfBase(const AgentTraits& traits) { return 0.5 * traits.wheelbase_m; }
+// The speed that it never drives faster than, whatever the limit.
 inline double Cap_mps(const Agent& agent, const AgentTraits& traits) { return std::min(agent.cap_mps, traits.top_mps); }
 
 // Null where it has none.

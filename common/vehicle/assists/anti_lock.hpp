@@ -6,6 +6,7 @@
 
 namespace rodeira::assists {
 
+// Slips are from 0 (the wheel rolls) to 1 (it is locked).
 struct AntiLockSettings {
   double slip = 0.11;              // that is held where the road bears a force as large as the load
   double min_slip = 0.03;          // on the slipperiest one
@@ -28,6 +29,7 @@ class AntiLock {
   // Torques of the brakes, from those that are wanted, N m.
   PerWheel Step(const AntiLockSettings& settings, const AssistCar& car, const AssistInput& input,
                 const MotionEstimator& motion, const PerWheel& wanted_Nm, double dt_s);
+  // Whether the wheel's torque was limited in the last step.
   bool acts(std::size_t wheel) const { return cap_Nm_[wheel] >= 0.0; }
 
   void Save(base::StateWriter& writer) const;

@@ -8,6 +8,7 @@
 
 namespace rodeira::assists {
 
+// Which controllers a car has (abs, tcs, esc), and their settings.
 struct AssistSettings {
   bool abs = false, tcs = false, esc = false;
   AntiLockSettings anti_lock;

@@ -6,6 +6,7 @@
 
 namespace rodeira::assists {
 
+// How far off the car may be, and how hard a brake then acts.
 struct StabilitySettings {
   double characteristic_mps = 22.0;    // of the wanted yaw rate V δ / (L (1 + V² / characteristic²))
   double lag_s = 0.08;                 // in which the car follows it

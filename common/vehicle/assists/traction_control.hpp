@@ -6,6 +6,7 @@
 
 namespace rodeira::assists {
 
+// Slip is positive where the wheel spins.
 struct TractionSettings {
   double slip = 0.1;            // of the driven wheels that the engine keeps to
   double least_mps = 2.0;       // slip counts against at least this speed

@@ -23,6 +23,7 @@ struct AligningCoefficient {
   std::string_view name;  // "QBZ1"
   double AligningSettings::*member;
 };
+// All of them, each once.
 std::span<const AligningCoefficient> AligningCoefficients();
 
 // M_z in N m about the contact's z axis, positive counter-clockwise seen from above: trail and residual moment with

@@ -55,6 +55,7 @@ class AutomaticGearbox {
  public:
   // Begins in a gear that suits wheels turning at this speed.
   void Start(const AutomaticSettings& settings, const GearboxSettings& gearbox, double wheel_radps);
+  // What holds during the coming step of dt_s; call it once a step.
   AutomaticOutput Step(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
                        const AutomaticInput& input, double dt_s);
   // Takes over from a driver who has left this gear engaged.

@@ -32,7 +32,10 @@ struct BicycleChassis {
   WheelDriveSettings drive() const {
     return {settings.wheel, settings.brakes, settings.powertrain, settings.assists, assist_car};
   }
+  // Of a wheel about the body's z axis, positive to the left: steering wheel angle, held to the limit, by the ratio; 0
+  // at the rear.
   double SteerAngle(std::size_t wheel, double steering_wheel_rad) const;
+  // From B's origin, with the tyre pressed in by its static load.
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
 };
 
@@ -62,6 +65,7 @@ struct BicycleFindings {
 // All of one car that changes: a value of some 1600 bytes, without a reference to anything, so that many of them are an
 // array (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/explanation/vehicle.md).
 struct BicycleCar {
+  // The wheel's spin is positive where it rolls forward; the angle wraps at ±pi.
   struct Wheel : WheelGround {
     Corner corner;
     Tyre tyre;
@@ -80,7 +84,9 @@ struct BicycleCar {
   double lateral_mps2 = 0.0;  // and across
   double steer_rad = 0.0;     // of the front wheels at the end of the last substep
 
+  // B's origin, in W.
   Eigen::Vector3d p_WB_W(const BicycleChassis& chassis) const { return body.p_WG_W - body.q_WG * chassis.p_BG_B; }
+  // A hub without suspension travel, in W.
   Eigen::Vector3d HubAtRest_W(const BicycleChassis& chassis, std::size_t wheel) const {
     return body.p_WG_W + body.q_WG * chassis.p_GH_B[wheel];
   }
@@ -93,8 +99,11 @@ struct BicycleCar {
   void Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
             BicycleFindings& findings);
 
+  // The steering wheel is positive to the left.
   BicyclePose PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const;
+  // What the wheel's suspension meets on the plane under it.
   CornerInput CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const;
+  // The hub's foot on the plane under the wheel, with axes along and across (to the left) in it; forces are still 0.
   BicycleContact ContactOf(const BicyclePose& pose, std::size_t wheel) const;
   // Along, each wheel moves as its own contact does; across, both wheels of an axle as its middle. The front wheels are
   // steered at this rate.

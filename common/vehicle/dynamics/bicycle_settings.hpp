@@ -12,6 +12,7 @@
 
 namespace rodeira::dynamics {
 
+// The car as one rigid body. Inertias are about its centre of gravity.
 struct BodySettings {
   double mass_kg = 1050.0;  // of the whole car with its wheels and driver
   double roll_inertia_kgm2 = 360.0;
@@ -24,6 +25,7 @@ struct BodySettings {
   double air_density_kgpm3 = 1.2;
 };
 
+// The ratio is the steering wheel's angle over the front wheels'.
 struct SteeringSettings {
   double ratio = 16.0;
   double limit_rad = 9.2;            // of the steering wheel, each side

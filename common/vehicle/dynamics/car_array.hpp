@@ -31,6 +31,7 @@ class CarArray {
   void Resize(std::size_t places);
   // INI of a car at a place, whatever was there. Where it is refused the place is as before.
   base::Status Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground);
+  // The place is empty from now on.
   void Clear(std::size_t i) { present_[i] = 0; }
   bool present(std::size_t i) const { return present_[i] != 0; }
 
@@ -40,10 +41,12 @@ class CarArray {
   void Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::ThreadPool* pool = nullptr);
 
   std::size_t size() const { return cars_.size(); }
+  // Preconditions of these: i is below size(); for the chassis and the position, a car has been placed there.
   const BicycleCar& car(std::size_t i) const { return cars_[i]; }
   const BicycleChassis& chassis(std::size_t i) const { return *chassis_[kinds_[i]]; }
   // Steer angles, forces and torques of its last substep.
   const BicycleFindings& findings(std::size_t i) const { return findings_[i]; }
+  // B's origin in W.
   Eigen::Vector3d p_WB_W(std::size_t i) const { return cars_[i].p_WB_W(chassis(i)); }
   // Along the car.
   double speed_mps(std::size_t i) const { return (cars_[i].body.q_WG.conjugate() * cars_[i].body.v_WG_W).x(); }

@@ -11,6 +11,7 @@
 
 namespace rodeira::dynamics {
 
+// A tyre as read; its model is shared and does not change.
 struct ChronoTyre {
   std::shared_ptr<const TyreModel> model;
   std::string kind;        // "Fiala", "TMeasy"

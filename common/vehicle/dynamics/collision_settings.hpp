@@ -23,6 +23,7 @@ struct BodyBox {
 
   double reach_m() const { return centre_B.norm() + half_m.norm(); }  // of its corners from B's origin, at most
 };
+// Edges parallel to B's axes.
 BodyBox BoxOf(const VehicleDimensions& dimensions, const CollisionSettings& settings);
 
 // Force on a body that is pressed `depth_m` into something at a contact that bears `share` of the stiffness: (k depth +

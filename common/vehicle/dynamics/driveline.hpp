@@ -23,6 +23,7 @@ struct DifferentialSettings {
   double locking_drive = 0.0;    // while the engine drives, 0 … 1
   double locking_overrun = 0.0;  // while the wheels drive the engine, 0 … 1
 };
+// A positive sum drives the car. At least 0.
 double LockingTorque(const DifferentialSettings& differential, double sum_of_shafts_Nm);
 
 // A differential between two driven axles: a planetary gear that gives the front axle a fixed share of the torque, with
@@ -55,6 +56,7 @@ struct DrivelineLoads : AxleLoads {
   AxleLoads rear;
 };
 
+// What a step found for a driven axle: left, right; positive forward.
 struct AxleMotion {
   std::array<double, 2> wheel_radps{};
   std::array<double, 2> friction_torque_Nm{};  // acting, either sign

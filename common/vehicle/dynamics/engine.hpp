@@ -9,11 +9,13 @@ namespace rodeira::dynamics {
 
 inline constexpr double kPetrol_kgpl = 0.745;
 
+// A point of the full-load curve.
 struct TorqueSample {
   double speed_radps = 0.0;
   double torque_Nm = 0.0;
 };
 
+// A petrol engine; speeds are the crankshaft's.
 struct EngineSettings {
   std::vector<TorqueSample> full_load;  // ascending in speed, net torque at full throttle
   std::vector<double> full_load_Nmspr;  // slopes at the samples (SmoothSlopes): cubic between them; empty: linear

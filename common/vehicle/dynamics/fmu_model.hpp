@@ -24,6 +24,7 @@ struct FmuSettings {
   Enveloping enveloping = Enveloping::kNone;            // of the ground that it is told
   VehicleDimensions dimensions;
 };
+// Problems stay in the file's collection; the FMU itself is not opened.
 FmuSettings ReadFmu(const config::Map& root);
 
 // A laboratory's own vehicle: an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's

@@ -22,9 +22,11 @@ struct FmuVariables {
     double offset = 0.0;
 
     explicit operator bool() const { return own != nullptr; }
+    // Between the FMU's unit and ours.
     double ToOurs(double value) const { return factor * value + offset; }
     double FromOurs(double value) const { return (value - offset) / factor; }
   };
+  // The FMU's variables of one wheel; docs/reference/vehicle-files.md has unit, sign and frame of each.
   struct Wheel {
     // Inputs: the ground under the wheel's centre, a plane.
     Variable ground_z, normal_x, normal_y, normal_z, friction;

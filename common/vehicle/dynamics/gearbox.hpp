@@ -5,6 +5,7 @@
 
 namespace rodeira::dynamics {
 
+// Ratios are turns of the input for one of the output.
 struct GearboxSettings {
   std::vector<double> forward{3.46, 1.96, 1.39, 1.03, 0.85};
   double reverse = 3.40;  // positive here; the total ratio of gear -1 is negative

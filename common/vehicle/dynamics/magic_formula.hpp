@@ -17,6 +17,7 @@ enum class MagicFormulaVersion { k61, k52 };
 // says.
 enum class TyreSide { kEither, kLeft, kRight };
 
+// A tyre of the formula. Coefficients without a comment have no unit.
 struct MagicFormulaSettings {
   MagicFormulaVersion version = MagicFormulaVersion::k61;
   TyreSide measured_on = TyreSide::kEither;
@@ -50,6 +51,7 @@ struct MagicFormulaCoefficient {
   std::string_view name;
   double MagicFormulaSettings::*member;
 };
+// All of them, each once.
 std::span<const MagicFormulaCoefficient> MagicFormulaCoefficients();
 
 // What a tyre does, steadily: kappa = -v_sx / |v_x| (1: spinning, -1: locked), tan_alpha = v_y / |v_x|, camber about
@@ -59,6 +61,7 @@ struct TyreSlip {
   double tan_alpha = 0.0;
   double camber_rad = 0.0;
 };
+// Of the road on the tyre, in the contact frame: along x, along y (positive to the left).
 struct TyreForces {
   double longitudinal_N = 0.0;
   double lateral_N = 0.0;

@@ -15,6 +15,7 @@ struct MagicFormulaParts {
   double shift_horizontal = 0.0;       // SHy
   double shift_vertical_N = 0.0;       // SVy
 };
+// Precondition: load_N is over 0.
 MagicFormulaParts PartsOf(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction);
 
 }  // namespace rodeira::dynamics

@@ -20,11 +20,14 @@ class BodyLoad final : public multibody::Load {
 
   // Where B and the corners of the box lie in the chassis as it is drawn. Until then nothing acts.
   void SetBody(const Eigen::Isometry3d& X_CB, const VehicleDimensions& dimensions);
+  // For the coming step: about B's origin, in W.
   void SetPush(const Wrench& push) { push_ = push; }
+  // The plane that the corners meet: a point of it and its upward unit normal.
   void SetGround(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W) {
     ground_W_ = point_W;
     normal_W_ = normal_W;
   }
+  // No corner meets any ground until the next SetGround.
   void LeaveGround() { SetGround({0.0, 0.0, -1e9}, Eigen::Vector3d::UnitZ()); }
 
   void Add(const multibody::Motion& motion, multibody::Sink& sink) const override;

@@ -12,6 +12,7 @@ namespace rodeira::dynamics {
 // force follows the motion within a step; the tangential ones are set before it.
 class WheelLoad final : public multibody::Load {
  public:
+  // `centre` and `axle` are entities: the hub's point, and the unit vector along the axle.
   struct Settings {
     multibody::Frame carrier;
     int centre = 0;
@@ -28,10 +29,12 @@ class WheelLoad final : public multibody::Load {
   };
   explicit WheelLoad(const Settings& settings) : settings_(settings) {}
 
+  // The ground under the wheel: a point of it and its upward unit normal, in W.
   void SetPlane(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W) {
     plane_W_ = point_W;
     normal_W_ = normal_W;
   }
+  // Of the tyre at its pressure, vertically; over 0.
   void SetStiffness(double vertical_Npm) { settings_.vertical_Npm = vertical_Npm; }
   // Forces along and across with the aligning moment, torque of the brake on the wheel about the axle, spin.
   void SetStep(const TyreForces& forces, double brake_on_wheel_Nm, double spin_radps);
@@ -39,6 +42,7 @@ class WheelLoad final : public multibody::Load {
   // roll.
   void Anchor(const Eigen::Vector3d& hub_W, double stiffness_Npm, bool locked);
 
+  // Without a load where the wheel is off the plane.
   Contact ContactAt(const multibody::Motion& motion) const;
   // Tangential forces now: those set and the anchor's.
   Eigen::Vector2d Tangential(const multibody::Motion& motion, const Contact& contact) const;
@@ -63,8 +67,10 @@ class WheelLoad final : public multibody::Load {
 // Air drag and the drive shafts' reaction on the chassis.
 class ChassisLoad final : public multibody::Load {
  public:
+  // drag_point: where the drag acts. half_rho_area_kgpm: half the air's density times C_d A.
   ChassisLoad(const multibody::Frame& chassis, multibody::Form drag_point, double half_rho_area_kgpm)
       : chassis_(chassis), drag_point_(std::move(drag_point)), half_rho_area_kgpm_(half_rho_area_kgpm) {}
+  // For the coming step: the sum of all drive shafts' torques on the wheels, positive forward.
   void SetDrive(double torque_on_wheels_Nm) { torque_on_wheels_Nm_ = torque_on_wheels_Nm; }
   // INI: what the air meets beside the motion, as if the car went that fast.
   void SetHeadway(const Eigen::Vector3d& v_W) { headway_W_ = v_W; }
@@ -84,6 +90,7 @@ class ColumnLoad final : public multibody::Load {
  public:
   ColumnLoad(int angle, double stiffness_Nmprad, double damping_Nmsprad)
       : angle_(angle), stiffness_Nmprad_(stiffness_Nmprad), damping_Nmsprad_(damping_Nmsprad) {}
+  // The steering wheel as the driver holds it, positive to the left.
   void SetHands(double angle_rad, double rate_radps) {
     hands_rad_ = angle_rad;
     hands_radps_ = rate_radps;

@@ -21,6 +21,7 @@ struct MultibodyWheelSettings {
   int travel = 0;      // that distance
 };
 
+// The steering wheel and its column; `angle` is an entity of the mechanism.
 struct MultibodySteeringSettings {
   int angle = 0;        // rotor: the column's lower end, in the steering wheel's sense (left positive)
   double ratio = 16.0;  // for controls by the front wheels' angle
@@ -49,6 +50,7 @@ struct MultibodySettings {
   VehicleDimensions dimensions;
 };
 
+// Problems stay in the file's collection.
 MultibodySettings ReadMultibody(const config::Map& root);
 
 }  // namespace rodeira::dynamics

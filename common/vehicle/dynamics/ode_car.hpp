@@ -32,6 +32,7 @@ class OdeCar {
 
   // For the next step: a force at a point, or a torque, on one body.
   void Push(std::size_t body, const Eigen::Vector3d& force_W, const Eigen::Vector3d& at_W);
+  // The torque is in W; several add up.
   void Twist(std::size_t body, const Eigen::Vector3d& torque_W);
   // A force along the strut: on the chassis upward, on the wheel downward, at the wheel's centre. The joint's spring
   // bears nothing where the car rests, so this is its preload, and what else there is of bars and stops.

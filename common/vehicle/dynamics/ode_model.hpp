@@ -25,6 +25,7 @@ class OdeModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build.
   explicit OdeModel(const OdeSettings& settings) : settings_(settings), tyres_(OnWheels(settings.car.tyre)) {}
+  // Makes ODE's bodies and joints, once.
   base::Status Build();
 
   base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;

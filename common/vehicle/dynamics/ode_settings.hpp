@@ -20,6 +20,7 @@ struct OdeSettings {
   double longest_substep_s = 0.001;
 };
 
+// Problems stay in the file's collection.
 OdeSettings ReadOde(const config::Map& root);
 
 // The chassis: the car without its wheels. Centre of gravity in B, principal inertia there.

@@ -18,6 +18,7 @@ enum class DrivenWheels { kFront, kRear, kAll };
 // Whether a wheel of this axle (0 front, 1 rear) is driven.
 bool Drives(DrivenWheels driven, std::size_t axle);
 
+// From the engine to the driven wheels.
 struct PowertrainSettings {
   DrivenWheels driven = DrivenWheels::kFront;
   EngineSettings engine;
@@ -65,6 +66,7 @@ class Powertrain {
   // less the gears' losses, by an engine with its throttle open as far as that takes. Not more than Start where the
   // wheels turn too slowly for a closed clutch.
   void StartSteadily(const PowertrainSettings& settings, double wheel_radps, const std::array<double, 2>& at_wheel_Nm);
+  // What became of engine, clutch and driven wheels in this step; valid until the next one.
   const DrivelineMotion& Step(const PowertrainSettings& settings, const Controls& controls,
                               const PowertrainInput& input, double dt_s);
 

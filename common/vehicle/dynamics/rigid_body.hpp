@@ -22,6 +22,7 @@ struct RigidBody {
   // Velocities first, from force and moment about G; then the pose with the new velocities. Inertia: principal, in G.
   void Push(const Eigen::Vector3d& force_W, const Eigen::Vector3d& moment_W, double mass_kg,
             const Eigen::Vector3d& inertia_kgm2, double dt_s);
+  // Over a step of dt_s, with the velocities as they are.
   void Move(double dt_s);
 
   void Save(base::StateWriter& writer) const;

@@ -29,6 +29,7 @@ double Evaluate(const SlipCurve& curve, double slip);
 // As those of the Magic Formula (magic_formula.hpp): forces at a load, N; `friction` of the ground multiplies the
 // peaks, not the stiffness. Camber has no effect.
 TyreForces SteadyForces(const SlipCurveSettings& tyre, const TyreSlip& slip, double load_N, double friction);
+// Slopes at zero slip, both positive: dFx/dkappa and -dFy/dtan(alpha), N. Peaks: the largest force, N.
 double LongitudinalStiffness(const SlipCurveSettings& tyre, double load_N);
 double CorneringStiffness(const SlipCurveSettings& tyre, double load_N);
 double LongitudinalPeak(const SlipCurveSettings& tyre, double load_N, double friction);

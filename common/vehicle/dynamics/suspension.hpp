@@ -28,6 +28,7 @@ struct CornerInput {
 // each instant. Its travel (compression positive, 0 at rest) is its only state; implicit, so no rate is too stiff.
 class Corner {
  public:
+  // Finds travel and load at the end of a step of dt_s.
   void Step(const SuspensionSettings& suspension, const CornerInput& input, double dt_s);
   // Static: travel at which spring and bar balance the tyre.
   void Settle(const SuspensionSettings& suspension, const CornerInput& input);

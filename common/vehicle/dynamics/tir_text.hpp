@@ -22,16 +22,19 @@ struct TirText {
   std::vector<std::string> sections;  // in their order, upper case
   std::vector<TirEntry> entries;
 
+  // The name in upper case, without brackets.
   bool HasSection(std::string_view name) const;
   // The first entry of this key in any section; null if there is none.
   const TirEntry* Find(std::string_view key) const;
   // Its value in upper case; empty if there is none.
   std::string Word(std::string_view key) const;
 };
+// Lines that are neither a section nor KEY = VALUE are passed over. It never fails.
 TirText SplitTir(std::string_view text);
 
 // A finite decimal number, with or without a sign; nothing for any other text.
 std::optional<double> TirNumber(std::string_view text);
+// Letters a to z alone; other bytes stay.
 std::string UpperCase(std::string_view text);
 
 }  // namespace rodeira::dynamics

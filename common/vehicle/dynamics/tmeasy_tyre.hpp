@@ -15,6 +15,7 @@ struct TmeasyDirection {
   std::array<double, 2> slip_max{};    // sM, where the force is largest
   std::array<double, 2> slip_slide{};  // sS, where the tyre slides; over sM
 };
+// nominal_N: the load of the first number of each pair; the second one belongs to twice that.
 struct TmeasySettings {
   double nominal_N = 0.0;
   double largest_N = 0.0;  // loads above it count as this one

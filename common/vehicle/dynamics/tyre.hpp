@@ -13,6 +13,7 @@
 
 namespace rodeira::dynamics {
 
+// A tyre of any model, with what the transient slip and the pressure add.
 struct TyreSettings {
   MagicFormulaSettings formula;
   std::optional<SlipCurveSettings> slip_curve = std::nullopt;  // where it is there, in the formula's place
@@ -56,6 +57,7 @@ struct TurnedPatch {
   double stiffness_Nmprad = 0.0;
   double most_Nm = 0.0;
 };
+// All 0 without a load.
 TurnedPatch TurnedPatchOf(const TyreSettings& tyre, double load_N, double friction);
 
 // How the wheel moves over the ground, in its contact frame.

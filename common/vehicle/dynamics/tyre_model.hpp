@@ -11,7 +11,9 @@ namespace rodeira::dynamics {
 class TyreModel {
  public:
   virtual ~TyreModel() = default;
+  // Steady forces; the aligning moment is left at 0.
   virtual TyreForces Forces(const TyreSlip& slip, double load_N, double friction) const = 0;
+  // Slopes at zero slip, N, both positive; then the peaks, N.
   virtual double LongitudinalStiffness(double load_N) const = 0;
   virtual double CorneringStiffness(double load_N) const = 0;
   virtual double LongitudinalPeak(double load_N, double friction) const = 0;

@@ -41,6 +41,7 @@ const std::vector<config::Key>& OuterDimensionKeys();
 // Coefficients of the Magic Formula with those of its aligning moment; of the aligning moment alone.
 const std::vector<config::Key>& FormulaKeys();
 const std::vector<config::Key>& AligningKeys();
+// `enveloping` of a wheel and of an FMU.
 config::Key EnvelopingKey();
 
 }  // namespace rodeira::dynamics

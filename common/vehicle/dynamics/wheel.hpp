@@ -14,6 +14,7 @@ enum class Enveloping {
 // The largest deflection of a tyre, share of its radius.
 inline constexpr double kMaxTyreDeflection = 0.5;
 
+// A wheel and its tyre's vertical side; the same for all four.
 struct WheelSettings {
   double radius_m = 0.29;           // unloaded
   double rolling_radius_m = 0.283;  // distance rolled for a radian, and lever arm of the longitudinal force

@@ -31,6 +31,7 @@ struct WheelDriveInput {
   double front_wheel_rad = 0.0;  // mean steer angle
 };
 
+// By wheel, positive where they turn it forward.
 struct WheelTorques {
   std::array<double, kWheels> brake_Nm{};     // that the brakes can hold
   std::array<double, kWheels> drive_Nm{};     // of the drive shafts at the wheels, less the gears' losses

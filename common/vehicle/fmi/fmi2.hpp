@@ -20,6 +20,7 @@ using fmi2Byte = char;
 enum fmi2Status { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pending };
 enum fmi2Type { fmi2ModelExchange, fmi2CoSimulation };
 
+// What an FMU may call; the standard says which of these may be null.
 struct fmi2CallbackFunctions {
   void (*logger)(fmi2ComponentEnvironment, fmi2String instance, fmi2Status, fmi2String category, fmi2String message,
                  ...);

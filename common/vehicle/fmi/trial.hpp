@@ -9,6 +9,7 @@
 
 namespace rodeira::fmi {
 
+// How long the trial's process may take.
 struct TrialLimits {
   std::chrono::seconds cpu{10};   // computed
   std::chrono::seconds wall{40};  // waited for

@@ -27,10 +27,13 @@ class Instance {
   virtual base::Status ExitInitialisation() = 0;
   // Whole numbers and truths are numbers, too (rounded; 0 or 1).
   virtual base::Status Set(const Variable& variable, double value) = 0;
+  // In the unit of the FMU's variable.
   virtual base::Result<double> Get(const Variable& variable) = 0;
+  // From time_s on, over step_s; the times of successive calls join.
   virtual base::Status DoStep(double time_s, double step_s) = 0;
   // The whole state, where the description offers it (can_get_state and can_serialize_state).
   virtual base::Result<base::Bytes> State() = 0;
+  // Bytes of State() of an instance of the same FMU.
   virtual base::Status SetState(std::span<const std::byte> bytes) = 0;
 };
 

@@ -34,6 +34,7 @@ class AxisWatch {
  public:
   // Whether this number, or one before it, lies away from the first.
   bool Moved(const AxisUse& use, double raw);
+  // As if no number had come yet.
   void Forget() { *this = AxisWatch(); }
 
   void Save(base::StateWriter& out) const;

@@ -17,6 +17,7 @@ struct DeviceAccess {
 
 // Registers the access, at the start of a program, before other threads; both functions are given.
 void UseDeviceAccess(const DeviceAccess& access);
+// False in programs that cannot reach any device.
 bool HasDeviceAccess();
 
 }  // namespace rodeira::input_devices

@@ -23,9 +23,11 @@ class GearSelector {
   explicit GearSelector(std::int32_t forward_gears, dynamics::GearboxMode mode = dynamics::GearboxMode::kAutomatic)
       : forward_gears_(forward_gears), mode_(mode) {}
 
+  // Once a step. A change of mode comes before the presses; gears beyond the ends are not reached.
   void Step(const LeverRequests& requests);
   // A lever with places of its own: the gear, whatever the mode.
   void Put(std::int32_t gear) { gear_ = gear; }
+  // Sets gear and gearbox mode, nothing else.
   void Show(dynamics::Controls& controls) const;
   // The lever and mode that other hands have left; gears that this one does not have: its nearest.
   void InitialiseFrom(const dynamics::Controls& last);

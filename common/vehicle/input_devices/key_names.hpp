@@ -17,6 +17,7 @@ namespace rodeira::input_devices {
 using Key = std::uint32_t;
 inline constexpr Key kMouse = 512;  // + 1 left, 2 middle, 3 right, 4 and 5 the thumb's
 
+// Nothing for an unknown name; case counts.
 std::optional<Key> KeyOf(std::string_view name);
 // "?" where the key has none.
 std::string NameOf(Key key);
@@ -29,6 +30,7 @@ struct WindowKey {
   std::string_view does;
   bool goes_on;  // in a help it shares a line with the next one
 };
+// In the order of the help.
 std::span<const WindowKey> WindowKeys();
 // As a help shows those that are wanted: "f10 f11  quieter; louder", a line or several.
 std::string WindowKeysText(const std::function<bool(const WindowKey&)>& wanted);

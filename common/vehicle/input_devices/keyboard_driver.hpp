@@ -55,11 +55,13 @@ struct KeyboardSettings {
   std::int32_t gears = 5;
   dynamics::GearboxMode gearbox = dynamics::GearboxMode::kAutomatic;
 
+  // Any one of them acts; empty: no key does.
   const std::vector<Key>& KeysOf(Action action) const { return keys[static_cast<std::size_t>(action)]; }
 };
 
 // Problems stay in the file's collection.
 KeyboardSettings ReadKeyboard(const config::Map& root);
+// Wrong input, with place and reason, where the file is missing or faulty.
 base::Result<KeyboardSettings> LoadKeyboard(const std::filesystem::path& path);
 // A line an action, for people: "up, w  throttle".
 std::string KeyboardHelp(const KeyboardSettings& settings);

@@ -11,6 +11,7 @@ namespace rodeira::input_devices {
 enum class Indicators : std::uint32_t { kOff = 0, kLeft = 1, kRight = 2, kHazard = 3 };
 enum class Headlights : std::uint32_t { kOff = 0, kDipped = 1, kFull = 2 };
 
+// What lamps and horn do now.
 struct Signals {
   Indicators indicators = Indicators::kOff;
   Headlights headlights = Headlights::kOff;

@@ -21,6 +21,7 @@
 
 namespace rodeira::input_devices {
 
+// A button of a device of the file; `place` is its "file:line".
 struct ButtonUse {
   std::size_t device = 0;
   std::size_t button = 0;
@@ -72,6 +73,7 @@ struct WheelSettings {
   bool has_force = true;         // false: its motors rest
   bool force_inverted = false;
 
+  // Nothing: the file names no axis for it.
   const std::optional<AxisUse>& AxisOf(WheelAxis axis) const { return axes[static_cast<std::size_t>(axis)]; }
 };
 

@@ -79,6 +79,7 @@ std::string WheelText(const WheelSettings& settings, const std::string& name);
 // Where files made by setting up lie: $XDG_CONFIG_HOME/rodeira/wheels, else ~/.config/rodeira/wheels; named by the
 // steering device's GUID.
 std::filesystem::path WheelFolder();
+// The file's path; it need not exist.
 std::filesystem::path WheelFileOf(const std::string& guid);
 
 }  // namespace rodeira::input_devices

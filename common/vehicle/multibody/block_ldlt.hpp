@@ -13,6 +13,7 @@ namespace rodeira::multibody {
 struct alignas(16) Block {
   std::array<double, 12> v{};
 
+  // Row and column from 0 to 2.
   double& At(int row, int column) { return v[4 * column + row]; }
   double At(int row, int column) const { return v[4 * column + row]; }
 };
@@ -36,7 +37,9 @@ class BlockLdlt {
   // `free`: the entities that have a block row, each once. `couples`: pairs of them with a block that may be other than
   // zero.
   void Analyse(int entities, std::span<const int> free, std::span<const std::pair<int, int>> couples);
+  // Whether the entity has a block row.
   bool IsFree(int entity) const { return position_[static_cast<std::size_t>(entity)] >= 0; }
+  // Precondition: both have a block row, and they are one entity or a pair that Analyse was told.
   Place Find(int first, int second) const;
 
   std::vector<Block>& values() { return values_; }
@@ -73,7 +76,9 @@ struct OuterPair {
   int row = 0;     // which of the gradients stands for the row …
   int column = 0;  // … and for the column
 };
+// All pairs of the entities, each once and each with itself. Every pair must have a block (Find).
 std::vector<OuterPair> OuterPairs(const BlockLdlt& matrix, std::span<const int> entities);
+// `gradients`: one an entity, in the order given to OuterPairs.
 void AddOuter(std::span<const OuterPair> pairs, const Triple* gradients, double weight, Block* blocks);
 
 }  // namespace rodeira::multibody

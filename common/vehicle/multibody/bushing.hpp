@@ -6,6 +6,7 @@
 
 namespace rodeira::multibody {
 
+// An elastic joint's stiffness and damping.
 struct BushingSettings {
   Vector3d stiffness_Npm = Vector3d::Zero();  // along the first body's axes as drawn
   Vector3d damping_Nspm = Vector3d::Zero();

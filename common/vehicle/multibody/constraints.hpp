@@ -20,10 +20,12 @@ class Constraints {
 
   // Pairs of entities that a constraint couples.
   void Couples(std::vector<std::pair<int, int>>& couples) const;
+  // Once the matrix has been analysed with all pairs of Couples. It allocates.
   void Bind(const BlockLdlt& matrix);
 
   int count() const { return static_cast<int>(rows_.size() + 3 * ties_.size()); }
   int rows() const { return static_cast<int>(rows_.size()); }
+  // Of a multiplier below count(), for messages; place: "file:line" of its constraint.
   const std::string& name(int index) const;
   const std::string& place(int index) const;
 
@@ -40,6 +42,7 @@ class Constraints {
   void AddTimeRate(double time_s, double* out) const;
   // blocks += weight Φqᵀ Φq, of the rows (which change) and of the ties (which do not).
   void AddRows(double weight, Block* blocks) const;
+  // It allocates.
   void AddTies(const BlockLdlt& matrix, double weight, Block* blocks) const;
 
  private:

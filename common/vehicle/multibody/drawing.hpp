@@ -40,6 +40,7 @@ struct GivenVelocity {
   std::string place;
 };
 
+// A force element by its name in the file.
 struct NamedLoad {
   std::string name;
   std::shared_ptr<Load> load;

@@ -22,11 +22,14 @@ class DrawingReader {
   const Drawing& drawing() const { return drawing_; }
   // Each adds a problem at the key where the name is not known, and gives nothing.
   std::optional<int> Entity(const config::Map& map, std::string_view key, const std::string& name, bool scalar) const;
+  // A point or a marker.
   std::optional<Form> Point(const config::Map& map, std::string_view key, const std::string& name) const;
+  // The index in Drawing::bodies, or in Drawing::loads.
   std::optional<int> Body(const config::DeclaredMap& map, std::string_view key) const;
   std::optional<int> LoadNamed(const config::DeclaredMap& map, std::string_view key) const;
   // [u] or [P, Q] under the key.
   std::optional<Form> Direction(const config::DeclaredMap& map, std::string_view key) const;
+  // The form's value at the drawn position.
   Vector3d Drawn(const Form& form) const { return Evaluate(form, at_.data()); }
 
  private:

@@ -32,6 +32,7 @@ struct Form {
 
 inline Vector3d AboutZ(const Vector3d& v) { return {-v.y(), v.x(), 0.0}; }  // z × v
 
+// The entity itself.
 Form Single(int entity);
 // first + factor second; terms of the same entity are added together.
 Form Sum(const Form& first, const Form& second, double factor = 1.0);
@@ -41,6 +42,7 @@ Form TurnedAboutZ(const Form& form);
 // The same form, all of it a part of the body.
 Form OfBody(Form form, int body);
 
+// In the order of the terms.
 std::vector<int> EntitiesOf(const Form& form);
 
 // Value with coordinates (or velocities) in triples, entity after entity.
@@ -49,10 +51,12 @@ Vector3d Evaluate(const Form& form, const double* q);
 void PushTerm(const Term& term, const Vector3d& force, double* out);
 void Push(const Form& form, const Vector3d& force, double* out);
 
+// The term's value with coordinates in triples.
 inline Vector3d ValueOf(const Term& term, const double* q) {
   const Vector3d e(q[3 * term.entity], q[3 * term.entity + 1], q[3 * term.entity + 2]);
   return term.b == 0.0 ? Vector3d(term.a * e) : Vector3d(term.a * e + term.b * AboutZ(e));
 }
+// (a + b z×)ᵀ f.
 inline Vector3d Transposed(const Term& term, const Vector3d& f) {
   return term.b == 0.0 ? Vector3d(term.a * f) : Vector3d(term.a * f - term.b * AboutZ(f));
 }

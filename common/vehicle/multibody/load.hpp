@@ -17,6 +17,7 @@ struct Motion {
   const double* qd = nullptr;
   double time_s = 0.0;
 
+  // The entity's triple, and its velocity.
   Vector3d At(int entity) const { return Eigen::Map<const Vector3d>(q + 3 * entity); }
   Vector3d RateOf(int entity) const { return Eigen::Map<const Vector3d>(qd + 3 * entity); }
 };
@@ -24,6 +25,8 @@ struct Motion {
 // Takes what loads do: generalised forces Q and, where the matrix is being made, their stiffness and damping.
 class Sink {
  public:
+  // `forces`: three numbers an entity, which are added to. `matrix`: null where it is not made. The factors weigh
+  // stiffness and damping in it.
   Sink(double* forces, Block* matrix, double stiffness_factor, double damping_factor)
       : forces_(forces), matrix_(matrix), stiffness_factor_(stiffness_factor), damping_factor_(damping_factor) {}
 
@@ -34,12 +37,14 @@ class Sink {
     return sink;
   }
 
+  // A force in the world's axes at a point or, for a direction's form, on that direction.
   void Push(const Form& form, const Vector3d& force) {
     if (body_ < 0) return multibody::Push(form, force, forces_);
     for (const Form::Part& part : form.parts) {
       if (part.body == body_) PushTerm(part.term, force, forces_);
     }
   }
+  // A generalised force on a scalar: N on a distance, N m on an angle.
   void Push(int coordinate, double force) {
     if (body_ < 0) forces_[3 * coordinate] += force;
   }
@@ -68,7 +73,9 @@ inline constexpr std::size_t kMaxLoadEntities = 24;  // that a load stiffens aga
 class Load {
  public:
   virtual ~Load() = default;
+  // Entities, at most kMaxLoadEntities; empty: forces alone.
   virtual std::vector<int> Stiffens() const { return {}; }
+  // Adds its forces and, if the sink wants the matrix, its stiffness and damping.
   virtual void Add(const Motion& motion, Sink& sink) const = 0;
   // Potential energy, where it has one.
   virtual double Energy(const Motion&) const { return 0.0; }

@@ -21,6 +21,7 @@ struct Mechanism {
 // Reads `rodeira: mechanism/1`, assembles it and finds its initial velocities and accelerations. Wrong input with
 // file:line where the file is wrong or the mechanism cannot be.
 base::Result<Mechanism> LoadMechanism(const std::filesystem::path& path, const SystemSettings& settings = {});
+// The same of a text; `name` stands for its file in messages.
 base::Result<Mechanism> ParseMechanism(std::string_view text, const std::filesystem::path& name,
                                        const SystemSettings& settings = {});
 

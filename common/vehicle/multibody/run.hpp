@@ -11,6 +11,7 @@
 
 namespace rodeira::multibody {
 
+// What a run took, and how well it kept constraints (largest violations) and energy.
 struct RunSummary {
   long steps = 0;
   double step_s = 0.0;  // the whole time is divided evenly, so it may be a little shorter than asked

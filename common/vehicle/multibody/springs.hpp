@@ -23,6 +23,8 @@ struct SpringLaw {
   double stop_stiffness = 0.0;
   double stop_damping = 0.0;  // acts while pressed further in
 
+  // All four at a length or angle x: the force with its derivatives by x and by the rate, and the energy, J (0 without
+  // spring force).
   double Force(double x, double rate) const;
   double Stiffness(double x) const;
   double Damping(double x, double rate) const;
@@ -64,6 +66,7 @@ class CoordinateSpring final : public Load {
 // they have moved since they were drawn, F = k ((b - b0) - (a - a0)) + c (bd - ad), a by +F and b by -F.
 class AntiRollBar final : public Load {
  public:
+  // N/m and N s/m of distances, N m/rad and N m s/rad of angles.
   struct Settings {
     double stiffness = 0.0;
     double damping = 0.0;
@@ -99,6 +102,7 @@ class GivenForce final : public Load {
   Law law_;
 };
 
+// A given torque on a body, about an axis of the world, times a function of time.
 class GivenTorque final : public Load {
  public:
   GivenTorque(Frame frame, const Vector3d& direction, const Law& law)
@@ -114,6 +118,7 @@ class GivenTorque final : public Load {
   Law law_;
 };
 
+// A given force on a distance, or torque on an angle, as a function of time.
 class CoordinateForce final : public Load {
  public:
   CoordinateForce(int coordinate, const Law& law) : coordinate_(coordinate), law_(law) {}

@@ -14,6 +14,7 @@
 
 namespace rodeira::multibody {
 
+// How exactly the equations are solved.
 struct SystemSettings {
   // Penalty α h²/4 over the largest mass of a coordinate: from 2500 on it converges always; as it is a ratio, α follows
   // from step and mass.
@@ -35,6 +36,7 @@ struct SystemSettings {
 // Largest size in a list, infinite where one is not finite.
 double LargestOf(std::span<const double> values);
 
+// What a step took.
 struct StepReport {
   bool converged = true;
   int iterations = 0;   // of Newton
@@ -53,6 +55,7 @@ struct Contraction {
     if (turns > 1) return changed * std::min(1.0, changed / changed_before);
     return changed * rate;
   }
+  // After a turn: what it changed, and what the one before did.
   void Learn(int turns, double changed, double changed_before);
 };
 
@@ -104,6 +107,7 @@ class System {
   const Constraints& constraints() const { return constraints_; }
   const BlockLdlt& matrix() const { return matrix_; }
   double time_s() const { return time_s_; }
+  // For laws of time; position and velocity stay as they are.
   void set_time_s(double time_s) { time_s_ = time_s; }
   std::span<double> q() { return q_; }
   std::span<const double> q() const { return q_; }
@@ -120,12 +124,14 @@ class System {
   // multipliers() contains the weight of the constraints' violation, which rounding of positions far from the origin
   // makes: some 100 N at 5 km. These have none of it. False where the equations are singular.
   [[nodiscard]] bool FindBalance(Balance& balance);
+  // J, of the velocities now.
   double KineticEnergy() const;
   // Of weight and of the loads that have one.
   double PotentialEnergy() const;
   double Energy() const { return KineticEnergy() + PotentialEnergy(); }
   // Largest |Φ| and |Φq qd + Φt| now.
   double Violation();
+  // In m/s or rad/s.
   double RateViolation();
 
   // Static equilibrium from the present position, velocities zero, by Newton's method in pseudo-time: a step of growing

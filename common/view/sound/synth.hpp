@@ -24,6 +24,7 @@ struct Voice {
   double horn = 0.0;     // 0 … 1: it sounds
 };
 
+// All that sounds at a moment.
 struct Heard {
   Voice own;                              // its wind is heard too
   std::map<std::uint64_t, Voice> others;  // by id

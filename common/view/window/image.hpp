@@ -16,6 +16,7 @@ struct Image {
   int height_px = 0;
   std::vector<std::uint8_t> rgb;
 
+  // The three bytes of a pixel; y counts from the top. Precondition: within the picture.
   const std::uint8_t* At(int x, int y) const {
     return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x))];
   }

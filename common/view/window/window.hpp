@@ -19,6 +19,7 @@ class Input;
 
 enum class Kind { kWindow, kOffscreen };
 
+// Of a new window. Pixels are those of the drawing area.
 struct Settings {
   Kind kind = Kind::kWindow;
   int width_px = 1280;
@@ -54,7 +55,9 @@ class Window {
   int height_px() const;
   // Events wait for a further frame: BeginFrame will not wait.
   bool busy() const;
+  // The person has been asked, or must be: the window is not to close now.
   void AskToStay();
+  // UTF-8.
   void SetTitle(const std::string& title);
   // Of OpenGL: "llvmpipe (LLVM 15.0.6, 256 bits)" or the like.
   const std::string& renderer() const { return renderer_; }

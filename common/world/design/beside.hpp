@@ -16,6 +16,7 @@ class Beside {
  public:
   Beside(const config::DeclaredMap& item, const network::RoadSpec& spec, double usual_m, bool right_side);
 
+  // t at s, positive to the left.
   double At(double s_m) const { return along_.Value(s_m) + beside_m_; }
   // Where the edge's course changes.
   std::vector<double> Knots() const;

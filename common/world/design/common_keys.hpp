@@ -19,6 +19,7 @@ inline constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max(
 inline config::Key StationKey(std::string name, std::string meaning) {
   return config::RequiredNumberKey(std::move(name), config::Range::NotNegative(), std::move(meaning));
 }
+// Where something begins along its road, m; 0 where the file does not say it.
 inline config::Key FromKey() {
   return config::NumberKey("from_s_m", config::Range::NotNegative(), 0.0, "Begins here.");
 }

@@ -31,6 +31,7 @@ struct Context {
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
 
+  // The material that the key names. An unknown name is a problem of the map's file; the default comes instead.
   const Material& MaterialOf(const config::DeclaredMap& map, std::string_view key,
                              std::string_view default_value) const;
 };

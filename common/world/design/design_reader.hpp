@@ -23,6 +23,7 @@ struct StartSpec {
   std::optional<int> lane;
   std::optional<double> s_m;
 };
+// The same in the network: index of the road, the lane's id and s of that road.
 struct StartPlace {
   std::uint32_t road = 0;
   int lane = 0;

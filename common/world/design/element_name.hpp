@@ -13,6 +13,7 @@ namespace rodeira::design {
 struct ElementName {
   std::string kind, key;
 };
+// Problems stay in the file's collection.
 ElementName ReadElementName(const config::Map& item);
 
 }  // namespace rodeira::design

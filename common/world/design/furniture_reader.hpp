@@ -24,7 +24,9 @@ struct SignKind {
   bool with_value;
 };
 const std::vector<SignKind>& SignKinds();
+// Country "DE"; the value's unit is km/h for limits, else %.
 network::Signal MakeSign(const SignKind& kind, std::optional<double> value);
+// Null where no sign has this name.
 const SignKind* FindSign(std::string_view name);
 
 }  // namespace rodeira::design

@@ -26,6 +26,7 @@ struct ArmLane {
 struct Setback {
   double before_m = 0.0, after_m = 0.0;
 };
+// By meeting, m.
 std::vector<Setback> Setbacks(const JunctionSpec& junction, const std::vector<network::Road>& roads);
 
 // The drivable lanes that lead into the junction, and out of it, from the left to the right as their traffic sees them.

@@ -17,6 +17,7 @@ struct Mouth {
   Eigen::Vector2d left_W, right_W, outward_W;
 };
 
+// Corners counter-clockwise, as JunctionSurface takes them.
 Outline MakeOutline(const std::vector<Mouth>& mouths);
 
 }  // namespace rodeira::design

@@ -21,6 +21,7 @@ struct Meeting {
   bool after = true;   // and goes on to larger ones
 };
 
+// A junction as its author says it.
 struct JunctionSpec {
   std::string id, name;
   std::vector<Meeting> meetings;  // the first one has priority

@@ -24,6 +24,7 @@ ArmSection SectionOf(const network::Road& road, network::End end, double weight)
 // The edges, as seen from inside looking out: left and right; of the paved lanes, or of all.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> EdgesAt(const network::Road& road, network::End end, bool paved);
 
+// Height and slopes dz/dx, dz/dy in W.
 struct JunctionHeight {
   double z_m = 0.0;
   double slope_x = 0.0;
@@ -52,6 +53,7 @@ class JunctionSurface {
   const Eigen::Vector2d& low_W() const { return low_; }
   const Eigen::Vector2d& high_W() const { return high_; }
 
+  // Whether a point lies within the outline, or within the paved part of it.
   bool Contains(const Eigen::Vector2d& p_W) const;
   bool IsPaved(const Eigen::Vector2d& p_W) const;
   // Also a little beyond the outline.

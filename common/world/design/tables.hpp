@@ -9,11 +9,13 @@
 // Functions of the station, as cubics.
 namespace rodeira::design {
 
+// A value at a station.
 struct Knot {
   double s_m = 0.0;
   double value = 0.0;
 };
 
+// The same value at every station.
 geometry::CubicTable Constant(double value);
 // Through the knots, which ascend from 0 on, level at each of them: between two it goes by 3 u^2 - 2 u^3. Before the
 // first and behind the last it is constant.
@@ -28,6 +30,7 @@ struct Hermite {
   double from_s_m, to_s_m;
   double from_value, from_slope, to_value, to_slope;
 };
+// Outside of [from, to] the table stays as it is.
 geometry::CubicTable WithHermite(const geometry::CubicTable& table, const Hermite& piece);
 
 enum class IfAbsent { kProblem, kDefault };

@@ -23,6 +23,7 @@ class QuietGdal {
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 
+  // GDAL's last error since the constructor, as a part of a sentence; at most 200 characters of it.
   static std::string Words() {
     const std::string words = CPLGetLastErrorMsg();
     return words.empty() ? "GDAL says no more" : fmt::format("GDAL says '{}'", words.substr(0, 200));

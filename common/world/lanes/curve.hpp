@@ -29,6 +29,7 @@ struct CurvePoint {
 // last): within 1e-5 m for radii over 8 m.
 class Curve {
  public:
+  // The curve's state at one d, as the network has it there.
   struct Node {
     double d_m = 0.0;
     double s_m = 0.0;  // of the road
@@ -64,10 +65,12 @@ class Curve {
                *end = reinterpret_cast<const char*>(bends_.data() + std::min(guess + 3, bends_.size()));
     for (const char* at = first; at < end; at += kLine_bytes) __builtin_prefetch(at);
   }
+  // The lane's width, m; linear between nodes, held at the ends.
   double WidthAt(double d_m) const;
   double StationAt(double d_m) const;  // s of the road, held within the section
   double AtStation(double s_m) const;  // its inverse: d, held at the ends
 
+  // A point's place along and beside the curve.
   struct Foot {
     double d_m = 0.0;
     double offset_m = 0.0;  // to the left

@@ -11,6 +11,7 @@
 // pedestrian.
 namespace rodeira::lanes {
 
+// One vehicle or pedestrian at one moment.
 struct FloatingCar {
   std::string id;
   std::string_view kind;                    // "car"; empty: a pedestrian

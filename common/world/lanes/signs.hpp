@@ -13,6 +13,7 @@ namespace rodeira::lanes {
 // The signs for vehicles on a track, in the order of growing right.
 enum class Sign : std::uint8_t { kStop = 0, kGiveWay = 1, kNone = 2, kPriority = 3 };
 
+// A sign at a track.
 struct SignPlace {
   double d_m = 0.0;  // along the track
   Sign sign = Sign::kNone;

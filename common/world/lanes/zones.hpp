@@ -47,6 +47,7 @@ struct DivergeZone {
 template <class Item>
 class ByTrack {
  public:
+  // Once, with the items of all tracks.
   void Take(const std::vector<std::vector<Item>>& of) {
     for (const auto& items : of) {
       begins_.push_back(static_cast<std::uint32_t>(items_.size()));
@@ -81,6 +82,7 @@ class Zones {
 
   const std::vector<Zone>& zones() const { return zones_; }
   const Zone& operator[](std::uint32_t zone) const { return zones_[zone]; }
+  // All sides of zones on the track, ascending by where they begin.
   std::span<const ZoneSide> Of(std::uint32_t track) const { return all_.Of(track); }
   // Of these only where it crosses or merges; only where it parts from others.
   std::span<const ZoneSide> ConflictsOf(std::uint32_t track) const { return conflicts_.Of(track); }

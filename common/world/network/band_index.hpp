@@ -27,6 +27,7 @@ struct Band {
 
   // How far a point lies outside the rectangle: nothing of the band is nearer.
   double Distance(const Eigen::Vector2d& p_W) const;
+  // Whether a point lies in the rectangle or on its edge.
   bool Holds(const Eigen::Vector2d& p_W) const {
     const Eigen::Vector2d away = p_W - centre_W;
     return std::fabs(away.dot(along_W)) <= half_along_m && std::fabs(geometry::Cross(along_W, away)) <= half_across_m;

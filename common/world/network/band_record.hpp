@@ -27,6 +27,7 @@ struct BandPiece {
   bool level = false;                // nor does the elevation
   bool flat = false;                 // the elevation is all of the road's height
 
+  // The piece ends before to_s_m.
   bool Holds(double s_m) const { return s_m >= from_s_m && s_m < to_s_m; }
 };
 
@@ -80,12 +81,14 @@ class BandRecords {
   // The roads must stay where they are.
   BandRecords(std::span<const Road> roads, const BandIndex& index);
 
+  // Precondition: a number of BandIndex::bands().
   const BandRecord& Of(std::uint32_t band) const { return records_[band]; }
   // A record that will be read soon: memory is asked for it meanwhile.
   void Fetch(std::uint32_t band) const {
     __builtin_prefetch(&records_[band]);
     __builtin_prefetch(reinterpret_cast<const char*>(&records_[band]) + 64);
   }
+  // The same for the numbers of the lanes in the record's first piece.
   void FetchLanes(const BandRecord& record) const {
     if (!(record.piece.from_s_m < record.piece.to_s_m)) return;
     const void* first = record.piece.steady ? static_cast<const void*>(numbers_.data() + record.piece.first)
@@ -108,6 +111,7 @@ class BandRecords {
     bool drivable = false;
     double outside_m = 0.0;
   };
+  // At (s, t); s lies in the piece. A t beyond all lanes of a side finds the outermost one.
   LaneAt At(const BandPiece& piece, double s_m, double t_m) const;
   // The elevation there.
   double Height(const BandPiece& piece, double s_m) const;

@@ -23,6 +23,7 @@ struct Cluster {
   Numbers ds_x, ds_y, dt_x, dt_y;
   double low_s_m, high_s_m, low_t_m, high_t_m;  // the smallest and the largest
 
+  // The id of the lane at a point, an index below the number of points.
   int LaneOf(std::size_t point) const { return lane != 0 ? lane : lanes[point]; }
 };
 

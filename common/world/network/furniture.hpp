@@ -23,6 +23,7 @@ struct SeenAtRoad {
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
   double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
+// A place in W (x east, y north, z up).
 struct SeenInWorld {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double heading_rad = 0.0, pitch_rad = 0.0,
@@ -32,6 +33,8 @@ struct SeenInWorld {
 // The type of a light for pedestrians alone (German catalogue).
 inline constexpr std::string_view kPedestrianSignal = "1000002";
 
+// An OpenDRIVE <signal>: a sign or a light. s, t and z offset in the road's frame, t positive to the left; value in
+// `unit`.
 struct Signal {
   std::string id, name;
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
@@ -54,6 +57,7 @@ struct Signal {
 
 // Boards hold signs and displays: a signal of one of these types is no sign itself.
 inline constexpr std::string_view kStaticBoard = "staticBoard", kDisplay = "vmsBoard", kMixedBoard = "multiBoard";
+// By its type alone; the country does not count.
 inline bool IsBoard(const Signal& signal) {
   return signal.type == kStaticBoard || signal.type == kDisplay || signal.type == kMixedBoard;
 }
@@ -75,6 +79,7 @@ struct Corner {
   std::string id;  // in its outline; may be empty
 };
 
+// Corners of an object's shape in order; closed: the last is joined to the first.
 struct Outline {
   std::string id;
   bool closed = true;
@@ -111,6 +116,7 @@ struct SkeletonPoint {
 };
 using SkeletonLine = std::vector<SkeletonPoint>;  // straight from each point to the next; at least two
 
+// What the upper side of an object is made of; friction nothing: not said.
 struct ObjectMaterial {
   std::string surface;  // as of LaneMaterial
   std::optional<double> friction;
@@ -127,6 +133,8 @@ struct ObjectMark {
   double start_offset_m = 0.0, stop_offset_m = 0.0;  // from the line's beginning and end, which stay without paint
 };
 
+// An OpenDRIVE <object>. s, t and z offset in the road's frame, angles about the road's direction, t positive to the
+// left. A radius makes it round; otherwise length lies along its x axis.
 struct Object {
   std::string id, name, type, subtype, orientation;
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;
@@ -150,6 +158,7 @@ bool IsFlat(const Object& object);
 // A piece of the road that is made of something else.
 bool IsPatch(const Object& object);
 
+// An object that stands at another road and is for this one.
 struct ObjectReference {
   double s_m = 0.0, t_m = 0.0;
   std::string id, orientation;

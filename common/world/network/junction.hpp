@@ -12,6 +12,7 @@
 
 namespace rodeira::network {
 
+// A lane that goes on into another: ids of lanes.
 struct JunctionLaneLink {
   int from = 0;  // lane of the incoming road
   int to = 0;    // lane of the connecting road
@@ -24,10 +25,12 @@ struct JunctionConnection {
   std::vector<JunctionLaneLink> lane_links;
 };
 
+// Traffic from `high` goes before traffic from `low`.
 struct JunctionPriority {
   std::string high, low;  // ids of connecting roads; where roads cross, or meet in the middle of one, of those
 };
 
+// An OpenDRIVE <junction>, and the ground that this program made for it.
 struct Junction {
   std::string id, name;
   std::string type = "default";  // default, direct, virtual, crossing
@@ -42,6 +45,7 @@ struct Junction {
   std::shared_ptr<const JunctionGround> ground;  // of a file's junction that has heights of its own; null: its roads'
 };
 
+// A signal that a controller switches.
 struct ControllerEntry {
   std::string signal_id, type;
 };

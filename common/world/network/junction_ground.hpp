@@ -32,7 +32,9 @@ class JunctionGround {
   // Of its grid, its boundary and its mouths; the roads that come in have digests of their own.
   base::Digest Digest() const;
   const std::vector<Eigen::Vector2d>& boundary_W() const { return boundary_; }
+  // Whether a point lies within the boundary; never without one.
   bool Contains(const Eigen::Vector2d& p_W) const;
+  // Height and slopes: of a mouth within its piece, else of the grid.
   GroundHeight At(const Eigen::Vector2d& p_W) const;
 
  private:

@@ -14,6 +14,7 @@ struct LaidPiece {
   double from_s_m = 0.0, to_s_m = 0.0;
   double right_t_m = 0.0, left_t_m = 0.0;
 
+  // Both ends and both sides belong to it.
   bool Holds(double s_m, double t_m) const {
     return s_m >= from_s_m && s_m <= to_s_m && t_m >= right_t_m && t_m <= left_t_m;
   }
@@ -37,9 +38,11 @@ struct Bump {
   struct Height {
     double z_m = 0.0, by_s = 0.0, by_t = 0.0;
   };
+  // s and t of the road.
   Height At(double s_m, double t_m) const;
 };
 
+// All that an author laid on one road.
 struct Laid {
   std::vector<Patch> patches;  // of several at one place the last one lies on top
   std::vector<Bump> bumps;     // of several at one place all count

@@ -46,8 +46,11 @@ enum class LaneType : std::uint8_t {
   kSpecial3,
 };
 
+// The word of OpenDRIVE: "driving".
 std::string_view LaneTypeName(LaneType type);
+// Nothing where OpenDRIVE has no such type.
 std::optional<LaneType> LaneTypeByName(std::string_view name);
+// In the order of LaneType.
 std::vector<std::string> LaneTypeNames();
 // Made for motor vehicles in motion: driving, bidirectional, ramps, entries and exits, bus, taxi and shared lanes.
 bool IsDrivable(LaneType type);
@@ -59,6 +62,7 @@ struct LaneHeight {
   double outer_m = 0.0;  // at its outer one
 };
 
+// One painted line of a mark; t_offset positive to the left of the mark's middle.
 struct MarkLine {
   double length_m = 0.0;  // of a stroke; a continuous line: 0
   double space_m = 0.0;   // of the gap behind it
@@ -95,6 +99,8 @@ struct SignSpeed {
   bool operator==(const SignSpeed&) const = default;
 };
 
+// What a lane's surface is from s_m on. Friction and roughness as OpenDRIVE's <material> has them; nothing: the
+// surface's usual ones.
 struct LaneMaterial {
   double s_m = 0.0;
   std::string surface;
@@ -104,6 +110,7 @@ struct LaneMaterial {
   double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground; it repeats
 };
 
+// Which road users may use a lane from s_m on, in OpenDRIVE's words ("passengerCar").
 struct LaneAccess {
   double s_m = 0.0;
   std::string rule;  // "allow": these and no others; "deny": all but these
@@ -118,6 +125,7 @@ struct LaneName {
   bool operator==(const LaneName&) const = default;
 };
 
+// A lane of one lane section. Records with an s are ascending, each in force until the next one.
 struct Lane {
   int id = 0;  // positive to the left of the centre, negative to its right, counted outward; 0: the centre itself
   LaneType type = LaneType::kNone;

@@ -30,6 +30,7 @@ struct SurfaceStrip {
   std::array<geometry::CubicTable, 4> coefficients;
 };
 
+// Strips beside one another over the whole road (OpenDRIVE 1.8, crossSectionSurface).
 struct CrossSectionSurface {
   geometry::CubicTable t_offset;   // where the inner edges of the first strips lie
   std::vector<SurfaceStrip> left;  // from inside outward
@@ -44,6 +45,7 @@ struct LateralProfile {
   CrossSectionSurface surface;
 
   bool flat() const;
+  // The sum of shapes, strips and crossfall at (s, t), t positive to the left.
   LateralPoint At(double s_m, double t_m) const;
 };
 

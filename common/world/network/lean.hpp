@@ -8,6 +8,7 @@
 
 namespace rodeira::network {
 
+// All four coefficients are 0, to the bit.
 inline bool IsZero(const geometry::Cubic& record) {
   return record.a == 0.0 && record.b == 0.0 && record.c == 0.0 && record.d == 0.0;
 }
@@ -22,6 +23,7 @@ inline Roll SmallRollAt(const geometry::Cubic& superelevation, double s_m) {
   const double angle = superelevation.Value(s_m);
   return {geometry::SmallSine(angle), geometry::SmallCosine(angle), superelevation.Slope(s_m)};
 }
+// Of any angle; small ones by SmallRollAt.
 inline Roll RollAt(const geometry::Cubic& superelevation, double s_m) {
   const double angle = superelevation.Value(s_m);
   return {geometry::SineOf(angle), geometry::CosineOf(angle), superelevation.Slope(s_m)};

@@ -40,6 +40,7 @@ struct BentOn {
     const double sine = turned - turned * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
     return {ahead * u_m, left * u_m, cosine, sine};
   }
+  // Whether the series is exact enough over u, where the curve has this curvature.
   bool Holds(double u_m, double curvature_1pm) const {
     return std::fabs(curvature_1pm * u_m) < kMaxTurn_rad && std::fabs(rate_1pm2 * u_m * u_m) < kMaxTwist;
   }
@@ -56,6 +57,7 @@ constexpr double kMinLeanFall = 0.1;
 struct LeanStep {
   double step_m, fall;
 };
+// t_m is the point's offset to the left of the line where u is 0.
 inline LeanStep NextLeanStep(const Onward& way, double t_m, double curvature_1pm, const Lean& lean) {
   const double ahead = way.sine * (t_m - way.left_m) - way.cosine * way.ahead_m, left = LeftOf(way, t_m);
   const double inverse = 1.0 / lean.left, m = lean.back * inverse,

@@ -14,6 +14,7 @@ struct RoadMeeting {
   double kink_rad = 0.0;  // of the heading, positive to the left, in (-pi, pi]
   double grade = 0.0;     // by how much the second one climbs more
 };
+// Of the reference lines: `end` of the first road, `contact` of the other.
 RoadMeeting MeetingOf(const Road& road, End end, const Road& other, End contact);
 
 // The end of a lane of one lane section.

@@ -76,9 +76,11 @@ struct GeoOffset {
 
   // From the network's coordinates to those of the geo reference, in metres, and back.
   Eigen::Vector2d ToMap(const Eigen::Vector2d& p_W) const;
+  // The inverse of ToMap.
   Eigen::Vector2d FromMap(const Eigen::Vector2d& p_map) const;
 };
 
+// What a reader of a file makes a network of; links and sign speeds are found by Network.
 struct NetworkSpec {
   std::string name;
   std::string geo_reference;  // PROJ or WKT text; empty: none
@@ -139,6 +141,7 @@ class Network {
                    [&](std::uint32_t band) { visit(index_.bands()[band].road, index_.bands()[band].panel); });
   }
 
+  // The lane section that holds the lane.
   const LaneSection& Section(const LaneKey& key) const { return roads()[key.road].spec().sections[key.section]; }
   // The lane; null where the network has none of that key.
   const Lane* Find(const LaneKey& key) const;

@@ -51,6 +51,7 @@ struct PlacedRun {
   double Step(const Road& on, double longest_m, double chord_m) const;
 };
 
+// All that stands at a network's roads.
 struct Furniture {
   std::vector<Placed> things;
   std::vector<PlacedRun> runs;

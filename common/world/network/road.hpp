@@ -33,12 +33,14 @@ struct RoadLink {
   std::optional<double> s_m = std::nullopt;
 };
 
+// The road's kind ("town", "motorway") and limit from a station on, until the next one.
 struct RoadType {
   double s_m = 0.0;
   std::string type, country;
   std::optional<double> speed_mps;  // infinite: no limit
 };
 
+// A road as a file says it. Stations s along the reference line, t positive to its left; tables are over s.
 struct RoadSpec {
   std::string id, name;
   std::string junction;  // the junction that a connecting road belongs to; empty: none
@@ -101,6 +103,7 @@ class Road {
 
   // The lane section in force at s, as an index into RoadSpec::sections; beyond the road's ends the outermost one.
   std::size_t SectionIndex(double s_m) const;
+  // That section itself.
   const LaneSection& SectionAt(double s_m) const { return spec_.sections[SectionIndex(s_m)]; }
   // t of the lanes' centre at s (the lane offset), and its slope over s.
   geometry::CubicPoint CentreAt(double s_m) const { return spec_.lane_offset.Evaluate(s_m); }
@@ -115,6 +118,7 @@ class Road {
   SurfaceSample Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
     return Surface(axis_.Evaluate(s_m), s_m, t_m, section, span);
   }
+  // The same where the reference line's point at s, `at`, is known too.
   SurfaceSample Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section,
                         const LaneSpan& span) const;
   // On a rolled road: moves (s, t), found in plan, to where the surface stands over (x, y), with s held in [low, high].
@@ -139,6 +143,7 @@ class Road {
   std::optional<double> SpeedLimitAt(const Lane& lane, double s_m) const;
   // The mark on a lane's outer edge, and what the lane is made of, in force at s; null where nothing is said.
   const RoadMark* MarkAt(const Lane& lane, double s_m) const;
+  // The material record in force at s.
   const LaneMaterial* MaterialAt(const Lane& lane, double s_m) const;
 
  private:

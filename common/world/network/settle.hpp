@@ -10,6 +10,8 @@
 // it, as Road::Surface does.
 namespace rodeira::network {
 
+// As Road::Settle: finds (s, t) of a point, from those that are given; s is held within [low, high]. Returns the
+// distance that is left.
 double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
                 double high_s_m, double& s_m, double& t_m);
 // Moves s to where the line at t is nearest to p.

@@ -32,6 +32,7 @@ struct TubePiece {
   bool right_wall = true, left_wall = true;         // none stands where another road lies beside
   std::array<bool, 2> portal = {false, false};      // the tunnel begins, or ends, there
 
+  // From the right edge to the left one at its beginning (0) or end (1), seen from above; unit length.
   Eigen::Vector2d LeftAt(std::size_t end) const { return (left_W[end] - right_W[end]).head<2>().normalized(); }
 };
 

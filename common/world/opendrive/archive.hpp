@@ -15,6 +15,7 @@ namespace rodeira::opendrive {
 
 inline constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 29;
 
+// By the first bytes alone: whether the rest is sound, Gunzip and Archive::Open find out.
 bool IsGzip(std::string_view bytes);
 bool IsZip(std::string_view bytes);
 
@@ -30,6 +31,7 @@ class Archive {
 
   // Of its files, with '/' between folders; what the Finder of macOS adds is left out.
   const std::vector<std::string>& names() const { return names_; }
+  // Whether names() has it.
   bool Has(const std::string& name) const;
   // A file of names(), bounded as for Gunzip.
   base::Result<std::string> Read(const std::string& name) const;

@@ -14,6 +14,7 @@
 // What must fit together. Findings go to the two lists of Findings.
 namespace rodeira::opendrive {
 
+// What checks have found, in the order in which they ran.
 struct Findings {
   std::vector<Finding> errors, warnings;
   Source* source = nullptr;  // the file's
@@ -26,10 +27,12 @@ std::string GapWords(double found, double most, double asam, std::string_view un
 // the end of the sentence about it. Nothing closes a step, so it is an error where no car climbs it (StepMost), or
 // strictly where ASAM allows none.
 constexpr double kClimbed_m = 0.2;
+// The most for JudgeStep, m: kClimbed_m, with a strict tolerance strictly_m.
 inline double StepMost(const Tolerance& tolerance, double strictly_m) {
   return tolerance.strict ? strictly_m : kClimbed_m;
 }
 void JudgeStep(Finding finding, double step_m, double most_m, Findings& findings);
+// For the finding's text, of the same step as JudgeStep.
 std::string StepWords(double step_m, double most_m);
 // The most between two lanes: strictly ASAM's own.
 double LaneGap(const Tolerance& tolerance);

@@ -5,6 +5,7 @@
 
 namespace rodeira::opendrive {
 
+// A value and the argument at which it is taken.
 struct Extreme {
   double value = 0.0, at = 0.0;
 };

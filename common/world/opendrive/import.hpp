@@ -23,6 +23,7 @@ struct Tolerance {
   bool strict = false;
   bool repair = true;  // errors are repaired, and become warnings; a file is refused where nothing of it can be driven
 
+  // Gaps up to 5 cm and kinks up to 1 mrad are closed; larger errors are repaired. Unrepaired: they stay errors.
   static Tolerance Usual() { return {}; }
   static Tolerance Unrepaired() { return {0.05, 1e-3, false, false}; }
   // What ASAM's own checker allows: contact points within 1e-6 m, lanes within 1 cm. Nothing is repaired.
@@ -36,8 +37,10 @@ struct Reach {
 
   double share() const { return lanes_m > 0.0 ? reached_m / lanes_m : 0.0; }
 };
+// Of all drivable lanes, by length in s.
 Reach ReachOf(const network::Network& network);
 
+// What reading a file gave: a network, or errors, and what the user is told.
 struct Import {
   std::string version;                              // "1.7"
   std::shared_ptr<const network::Network> network;  // null where there are errors
@@ -65,6 +68,7 @@ inline constexpr std::string_view kDeadEndRule = "rodeira.lane.dead_end";
 // lines.
 std::vector<Finding> OneEachKind(const std::vector<Finding>& findings);
 
+// Wrong input with the id of the finding's rule and "path:line" as its place.
 base::Error ToError(const Finding& finding, const std::filesystem::path& path);
 // What the file holds: a table for people, ending in a newline.
 std::string Describe(const Import& import);

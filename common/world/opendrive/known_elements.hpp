@@ -8,6 +8,7 @@
 // Which elements and attributes OpenDRIVE 1.4 to 1.8 has where, as far as this project reads or knows them.
 namespace rodeira::opendrive {
 
+// The names that may stand in an element.
 struct KnownElement {
   std::vector<std::string> children, attributes;
   std::vector<std::string> once;  // of the children: those that may stand there only once

@@ -21,6 +21,7 @@ struct RoadLines {
   std::vector<pugi::xml_node> element_nodes, section_nodes;
 };
 
+// A road as read, before its axis is built: its plan view is in `elements`.
 struct RoadReading {
   network::RoadSpec spec;
   std::vector<geometry::PlanElement> elements;
@@ -54,6 +55,7 @@ struct CrossPath {
   std::size_t line = 0;
 };
 
+// A junction as read, with what becomes its ground and its roads' objects later.
 struct JunctionReading {
   network::Junction junction;
   std::size_t line = 0;
@@ -67,13 +69,16 @@ struct JunctionReading {
 };
 
 // Each reads one element of the file, with its children. What is wrong becomes a finding of the node's source, with its
-// line, and reading goes on. Units are those of the file: metres, radians.
+// line, and reading goes on. Units are those of the file: metres, radians. ReadContact gives kStart where the attribute
+// is missing or another word than "start" or "end".
 network::End ReadContact(const Node& node, const char* attribute);
 RoadReading ReadRoad(const Node& road);
+// Adds each element's line to `lines`.
 std::vector<geometry::PlanElement> ReadPlanView(const Node& road, RoadLines& lines);
 void ReadProfiles(const Node& road, network::RoadSpec& spec);
 void ReadLateral(const Node& road, network::LateralProfile& lateral);
 void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines);
+// section_s_m: the station that the mark's sOffset is counted from.
 network::RoadMark ReadMark(const Node& mark, double section_s_m);
 void ReadSignals(const Node& road, network::RoadSpec& spec);
 network::Object ReadObject(const Node& node);

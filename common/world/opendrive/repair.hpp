@@ -15,6 +15,7 @@ namespace rodeira::opendrive {
 // One reading. Every error says how it is repaired; errors without anything done leave nothing to read.
 base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::path& path, const Tolerance& tolerance,
                               const Edited* edited);
+// All rounds of reading and repair; the import's warnings say what was repaired.
 base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& path, const Tolerance& tolerance);
 
 }  // namespace rodeira::opendrive

@@ -53,6 +53,7 @@ enum class RepairKind {
   kWidthZero,
 };
 
+// A kind and its name in reports.
 struct RepairKindName {
   RepairKind kind;
   std::string_view name;

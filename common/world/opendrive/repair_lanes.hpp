@@ -17,6 +17,8 @@ namespace rodeira::opendrive {
 
 inline constexpr double kFound_m = 0.1;  // the lane that lies nearer is meant
 
+// Makes repairs of the file's text for lanes and connections of a network that was built from it; all three arguments
+// outlive it.
 class LaneRepairs {
  public:
   LaneRepairs(const network::Network& network, std::span<const RoadLines> lines, Source& source);
@@ -25,6 +27,7 @@ class LaneRepairs {
   Repair DropLink(const network::LaneKey& lane, network::End end, int id) const;
   // A connection's way from or to a lane that is not there.
   Repair DropLaneLink(const network::JunctionConnection& connection, const network::JunctionLaneLink& link) const;
+  // The whole connection, by its indices in the junction.
   Repair DropConnection(std::size_t junction, std::size_t connection) const;
   // Two lanes that go on into one another with a gap between their edges: kept where a car can drive it.
   Repair GapRepair(const network::LaneEnd& from, const network::LaneEnd& to) const;
@@ -41,6 +44,7 @@ class LaneRepairs {
   // The farther of both edges' gaps between a lane's end and the lanes of one section that it goes on into, which lie
   // side by side.
   double GapToAll(const network::LaneEnd& from, std::span<const network::LaneEnd> to) const;
+  // Seen out of `from`; no number is negative.
   Passing PassingOf(const network::LaneEnd& from, const network::LaneEnd& to) const;
 
  private:

@@ -12,12 +12,16 @@ inline constexpr double kBridge_m = 5.0;    // the last part of an element that 
 
 // A gap between element `next` and the one before: bridged, or the road ends there.
 Repair GapRepair(Source& source, const RoadReading& road, std::size_t next);
+// A kink between element `next` and the one before: kept up to kFolded_rad; a larger one ends the road there.
 Repair KinkRepair(Source& source, const RoadReading& road, std::size_t next, double kink_rad);
 // An element that begins elsewhere along the line than the one before ends.
 Repair StationRepair(Source& source, const RoadReading& road, std::size_t next);
 // A cubic with a curve that is not as long as its element says.
 Repair CubicRepair(Source& source, const RoadReading& road, std::size_t element);
+// The road's length is set to the end of its last element.
 Repair LengthRepair(Source& source, const RoadReading& road);
+// A section beside its road or behind a later one: the first begins with the road, another is removed. No repair where
+// the file has no such element.
 Repair SectionRepair(Source& source, const RoadReading& road, std::size_t section);
 
 }  // namespace rodeira::opendrive

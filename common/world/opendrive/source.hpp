@@ -22,6 +22,7 @@ class Source;
 // An element of the file. It is asked for attributes, and says itself what is wrong with them.
 class Node {
  public:
+  // The source outlives it.
   Node(Source* source, pugi::xml_node node) : source_(source), node_(node) {}
 
   explicit operator bool() const { return static_cast<bool>(node_); }
@@ -33,7 +34,9 @@ class Node {
   bool Has(const char* attribute) const { return static_cast<bool>(node_.attribute(attribute)); }
   // Finite numbers; what is missing without `otherwise`, or is no number, is a finding, and 0 comes.
   double Number(const char* attribute) const;
+  // The same with a value for a missing attribute.
   double Number(const char* attribute, double default_value) const;
+  // 0 with a finding where it is no whole number within ±1e6.
   int Integer(const char* attribute) const;
   std::string Text(const char* attribute) const;  // a finding where missing or empty
   std::string Text(const char* attribute, std::string_view default_value) const;
@@ -41,7 +44,9 @@ class Node {
   // a, b, c, d and where they begin: origin + the named attribute.
   geometry::Cubic Cubic(const char* from, double origin) const;
 
+  // The first child of this name; false where there is none.
   Node Child(const char* element) const { return {source_, node_.child(element)}; }
+  // In the order of the file; only direct children.
   std::vector<Node> Children(const char* element) const;
   // Without a repair: the element is taken out, where a road can be read without it; else the road is.
   void Wrong(std::string_view rule, std::string message) const;
@@ -49,6 +54,7 @@ class Node {
 
   // What is changed in the file's text.
   std::string_view Text() const;  // of the whole element
+  // Edits that delete the element, replace it by text, or set one of its attributes.
   Edit Remove() const;
   Edit Replace(std::string text) const;
   Edit Set(std::string_view attribute, std::string_view value) const;
@@ -99,6 +105,7 @@ class Source {
   std::vector<Finding> errors, warnings;
   std::vector<NamedFile> surfaces;
 
+  // Adds an error at a line of the original text, in the road, lane and s of `where`; none beyond most_findings.
   void Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair);
   std::size_t most_findings = 1000;
 
@@ -112,6 +119,7 @@ class Source {
 
 inline constexpr const char* kLeftOut = "the road is left out";
 
+// Offsets of the first byte of each line; the first is 0.
 std::vector<std::size_t> LineStarts(std::string_view text);
 // How an element is taken out of the file: alone where a road can be read without it, a curve for a line, otherwise
 // with its road; with nothing done where none is possible.

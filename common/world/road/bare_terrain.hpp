@@ -17,6 +17,7 @@ struct BareTerrain {
   ground::Surface surface = ground::Surface::kGrass;
   double friction = 0.0;
 
+  // SUELO at (x, y) in W; the hint plays no part. Outside of the grid, on a void and without terrain it is no ground.
   SurfacePoint At(double x_m, double y_m) const;
 };
 

@@ -33,6 +33,7 @@ class BuiltGround {
   // The same ground with something else on its roads.
   std::shared_ptr<const BuiltGround> With(SurfaceDetail detail) const;
 
+  // SUELO at (x, y) in W: altitude, normal, friction and surface.
   SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
   // The same of points close to one another, where they lie on one road alone; its surface then answers whatever the
   // hints: to the bit what At says of each. False, and then nothing is written, where that is not so or not told so

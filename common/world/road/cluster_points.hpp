@@ -11,6 +11,7 @@
 
 namespace rodeira::road {
 
+// Unit normals by point, in W: x to the east, y to the north, up.
 struct ClusterNormals {
   network::Cluster::Numbers x, y, up;
 };

@@ -9,6 +9,7 @@
 // Pieces of OpenDRIVE's XML.
 namespace rodeira::road {
 
+// The text with &, <, > and " as entities.
 std::string Escaped(std::string_view text);
 // <element from_name="from" a= b= c= d=/>
 std::string CubicText(const char* element, const char* from_name, double from, const geometry::Cubic& cubic);

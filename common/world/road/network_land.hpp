@@ -44,6 +44,7 @@ class NetworkLand {
 
   // By road.
   const std::vector<std::vector<Stretch>>& decks() const { return decks_; }
+  // Whether s lies in one of the road's decks.
   bool IsOnDeck(std::uint32_t road, double s_m) const;
 
  private:

@@ -63,6 +63,7 @@ base::Result<std::vector<std::string>> WriteRepaired(const std::filesystem::path
 
 // Extents, roads, lanes; and where a point lies, as further lines of an answer of SUELO.
 std::string DescribeNetwork(const network::Network& network);
+// Road, s_m, t_m, lane and speed limit (km/h), a line each. Empty without a place.
 std::string DescribePlace(const network::Network& network, const std::optional<network::Place>& place);
 
 // The plan as SVG: lanes in the colours of their types, lines between them, junctions, the ids of roads.

@@ -14,6 +14,7 @@ class Paint {
   Paint() = default;
   explicit Paint(const network::Network& network);
 
+  // Whether a line is painted at (s, t) of the road. Precondition: a road of the network.
   bool At(std::uint32_t road, double s_m, double t_m) const;
   // False: nothing is painted anywhere between these.
   bool MayBe(std::uint32_t road, double low_s_m, double high_s_m, double low_t_m, double high_t_m) const;

@@ -13,6 +13,7 @@ namespace rodeira::road {
 
 // A road as its author wrote it: its parts between junctions and the ways through these, in order.
 struct RoadChain {
+  // A road of the network within the chain.
   struct Part {
     std::uint32_t road = 0;
     double from_s_m = 0.0;  // where it begins along the chain

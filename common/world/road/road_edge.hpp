@@ -19,6 +19,7 @@ std::pair<double, double> Steepening(double distance_m, double reach_m);
 struct EdgesAside {
   double beside_m, right_m, left_m;
 };
+// Never less than the true distances; more where the road leans.
 EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel);
 
 // Added to distances and heights that are found from samples, for what lies between the samples.
@@ -46,6 +47,7 @@ struct SteadyEdges {
   // Nothing within the edges. outside_m: as LaneSection::At's.
   const network::LaneSpan* Beyond(double t_m, double& outside_m) const;
 };
+// Its section is null where an edge moves within the stretch.
 SteadyEdges SteadyEdgesOf(const network::Road& road, const Stretch& stretch);
 
 // The place on a stretch of a panel that lies across the road from a point, or at the stretch's nearer end: on the edge
@@ -63,6 +65,7 @@ struct EdgePlace {
   geometry::PlanPoint axis;
   network::SurfaceSample sample;
 };
+// steady: of this stretch, if they are known; the place is the same without them.
 EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch,
                       const Eigen::Vector2d& p_W, const SteadyEdges& steady = {});
 // The same place moved along the road to another station of the panel.

@@ -45,6 +45,7 @@ struct Verge {
   ground::Surface surface = ground::Surface::kGrass;
 };
 
+// What an author says of a cross-section.
 struct SectionSpec {
   std::vector<Lane> lanes;    // id, direction, width, speed limit; the edges are found by Section
   double fall_left = 0.025;   // crossfall of the lanes left of the axis, positive: falling to the left

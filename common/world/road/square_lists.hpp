@@ -37,6 +37,7 @@ class SquareLists {
     return Of(*square);
   }
   const SquareGrid& grid() const { return grid_; }
+  // Precondition: a square of grid().
   std::span<const std::uint32_t> Of(std::size_t square) const {
     return std::span(strips_).subspan(first_[square], first_[square + 1] - first_[square]);
   }

@@ -13,6 +13,7 @@ namespace rodeira::road {
 // Which squares of the plane some boxes touch: tells quickly that none of them is at a point.
 class Squares {
  public:
+  // Opposite corners, the smaller coordinates in low_W.
   struct Box {
     Eigen::Vector2d low_W, high_W;
   };

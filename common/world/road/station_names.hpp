@@ -19,6 +19,7 @@ struct OfRoad {
 // stations, where `own` says that the network is a world file's; otherwise by the road's id.
 class StationNames {
  public:
+  // The network outlives it.
   StationNames(const network::Network& network, bool own);
 
   // "road 'a' at s = 12.0 m"

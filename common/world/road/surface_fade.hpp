@@ -26,6 +26,7 @@ struct Share {
 struct Raised {
   double z_m = 0.0, by_s = 0.0, by_t = 0.0;
 
+  // Multiplies the height, derivatives by the product rule.
   void Fade(const Share& share);
   void operator+=(const Raised& other) { z_m += other.z_m, by_s += other.by_s, by_t += other.by_t; }
   // Of what is laid instead of the road: over its surface.
@@ -40,6 +41,7 @@ struct RoadEdges {
   RoadEdges(const network::Road& road, const network::LaneSection& section, double s_m);
   // To nothing at either edge.
   Share FromLeft(double t_m) const;
+  // The same from the right edge, each over kFadesAcross_m.
   Share FromRight(double t_m) const;
 };
 

@@ -19,6 +19,7 @@ class TunnelSides {
  public:
   static constexpr double kBeside_m = 5.0;  // so far it goes on
 
+  // Height and gradient (dz/dx, dz/dy) of the floor.
   struct Floor {
     double z_m = 0.0;
     Eigen::Vector2d slope_W = Eigen::Vector2d::Zero();

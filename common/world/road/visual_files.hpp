@@ -14,7 +14,9 @@ namespace rodeira::road {
 // The file that says what a visual database was written from, and what it consists of.
 inline constexpr const char* kVisualManifest = "visual.txt";
 
+// The lines of the file.
 struct VisualContents {
+  // A file with the hash that its bytes had when it was written.
   struct Listed {
     base::Digest hash = 0;
     std::string name;  // from the folder
@@ -24,6 +26,7 @@ struct VisualContents {
   std::vector<std::string> broken;  // lines that name no file with its hash
 };
 
+// Empty where the file cannot be read.
 VisualContents ReadVisualContents(const std::filesystem::path& manifest);
 
 // Each file that is missing or not as it was written, and each line that names none, in the order of the lines. Empty:

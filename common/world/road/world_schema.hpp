@@ -12,6 +12,7 @@ const config::Schema& WorldSchema();
 
 // The keys of each part.
 const std::vector<config::Key>& PlaneKeys();
+// Of `terrain`, of its `generate`, and of its `texture`.
 const std::vector<config::Key>& TerrainKeys();
 const std::vector<config::Key>& HillsKeys();
 const std::vector<config::Key>& GroundPictureKeys();

@@ -11,6 +11,7 @@
 // Maps of OpenStreetMap and networks of SUMO as OpenDRIVE.
 namespace rodeira::sumo {
 
+// What is read, and what messages call the result.
 struct ImportOptions {
   std::filesystem::path file;       // .osm, .net.xml, or one of them gzipped
   std::filesystem::path named;      // the OpenDRIVE file that is made, for messages
@@ -18,6 +19,7 @@ struct ImportOptions {
   std::function<bool()> stop;       // asked often; true: the import ends
 };
 
+// The result of an import; nothing is written to the disk.
 struct Imported {
   std::string drive;                  // the text of the OpenDRIVE file
   std::vector<std::string> warnings;  // one sentence each

@@ -8,6 +8,7 @@
 
 namespace rodeira::sumo {
 
+// How much was written.
 struct RightOfWayWritten {
   std::size_t pairs = 0;  // ways over junctions of which one goes first
   std::size_t signs = 0;

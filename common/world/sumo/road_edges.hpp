@@ -19,6 +19,7 @@ struct ConnectingLane {
   int lane_id = 0;
 };
 
+// XML nodes are those of the document given to FindEdges, which outlives them.
 struct RoadEdges {
   std::map<std::string, pugi::xml_node> road_of;  // by edge
   std::vector<ConnectingLane> ways;               // in the order of the connections

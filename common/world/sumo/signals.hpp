@@ -15,6 +15,7 @@ namespace rodeira::sumo {
 
 inline constexpr double kBeside_m = 0.6;  // signs and lights stand so far beside the road's edge
 
+// What became of the lights, by their ids in SUMO.
 struct LightsWritten {
   std::size_t lights = 0;                       // traffic lights with times
   std::map<std::string, std::string> light_of;  // by the id of a controller
@@ -36,15 +37,18 @@ struct SignalSpec {
   bool dynamic = false;
   int from_lane = 0, to_lane = 0;
 };
+// s, t, above (z offset), width and height in metres as OpenDRIVE's <signal> has them.
 void WriteSignal(pugi::xml_node road, const SignalSpec& spec);
 
 // A painted line across lanes, before the end of the road: "294" to stop at, "341" to give way at.
 void WriteLineAcross(pugi::xml_node road, const std::string& id, bool stops, double left_m, double right_m,
                      int from_lane, int to_lane);
 
+// The road's attribute, m; 0 where it has none.
 double LengthOf(const pugi::xml_node& road);
 // How far the right edge of a lane lies to the right of the reference line, at the road's beginning.
 double RightEdgeOf(const pugi::xml_node& road, int lane);
+// The first width record's constant part, m: netconvert writes no other.
 double WidthOf(const pugi::xml_node& lane);
 
 }  // namespace rodeira::sumo

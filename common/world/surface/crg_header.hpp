@@ -25,6 +25,7 @@ enum class CrgColumn {
   kUnused,   // u of the reference line: it is implied
 };
 
+// One column of the file's numbers.
 struct CrgChannel {
   CrgColumn column = CrgColumn::kUnused;
   std::optional<double> v_m;  // of a height: where the file says "at v ="
@@ -68,6 +69,7 @@ struct CrgModifiers {
   std::optional<double> centre_x_m, centre_y_m, turn_rad, shift_x_m, shift_y_m, shift_z_m;
 };
 
+// All that the head of a file says.
 struct CrgHeader {
   std::string comment;  // $CT
   CrgRoadKeys road;

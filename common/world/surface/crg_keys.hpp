@@ -19,6 +19,7 @@ struct CrgKey {
   bool whole = false;  // a whole number
 };
 
+// The keys of $ROAD_CRG, $ROAD_CRG_OPTS and $ROAD_CRG_MODS.
 std::span<const CrgKey> CrgRoadKeyTable();
 std::span<const CrgKey> CrgOptionTable();
 std::span<const CrgKey> CrgModifierTable();

@@ -28,6 +28,7 @@ class CrgReferenceLine {
   double step_m() const { return step_m_; }
   const std::vector<Eigen::Vector2d>& points_W() const { return points_; }
 
+  // The point at (u, v) in the plane, v positive to the left.
   Eigen::Vector2d Position(double u_m, double v_m) const;
   // The way back: the nearest segment, or a neighbour of it, where (x, y) lies on its side of the crossing lines.
   // Unique where v is smaller than the radius of the line's bends.

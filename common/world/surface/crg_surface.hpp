@@ -45,7 +45,9 @@ class CrgSurface {
  public:
   explicit CrgSurface(CrgShape shape);
 
+  // At (u, v). Not inside where a number is not finite.
   CrgPoint At(double u_m, double v_m) const;
+  // At (x, y) of the file's plane: its foot on the reference line, and the slopes by x and y.
   CrgGround Ground(double x_m, double y_m) const;
 
   const CrgShape& shape() const { return shape_; }

@@ -16,6 +16,7 @@ struct CrgTable {
   std::size_t columns = 0;
   std::vector<double> values;  // row by row
 
+  // Precondition: row < rows, column < columns.
   double At(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 

@@ -44,6 +44,7 @@ class Roughness {
 
   explicit Roughness(const RoughnessSpec& spec);
 
+  // s and t in metres; dz_ds and dz_dt are exact derivatives.
   RoughnessPoint At(double s_m, double t_m) const;
   const RoughnessSpec& spec() const { return spec_; }
   // The mean square height, m2: the density's integral over the frequencies, G(n0) n0^2 (1/n_low - 1/n_high).

@@ -11,6 +11,7 @@ struct ValueRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
+  // A NaN changes nothing.
   void Add(double value) {
     low = std::min(low, value);
     high = std::max(high, value);

@@ -15,6 +15,7 @@ namespace rodeira::terrain {
 
 inline constexpr std::size_t kBtHeaderBytes = 256;
 
+// The header's fields; extents in metres, feet or degrees as metres_a_unit says.
 struct BtHeader {
   int version_tenths = 13;  // 10 to 13
   int columns = 0;

@@ -25,6 +25,7 @@ class ElevationGrid {
  public:
   static constexpr float kVoid = -32768.0F;
 
+  // Number of posts, and the coordinates of the outermost ones in W.
   struct Frame {
     int columns = 0;  // >= 2, west to east
     int rows = 0;     // >= 2, south to north
@@ -37,6 +38,7 @@ class ElevationGrid {
   const Frame& frame() const { return frame_; }
   double spacing_x_m() const { return spacing_x_m_; }
   double spacing_y_m() const { return spacing_y_m_; }
+  // The height of a post, m; kVoid where it has none. Precondition: a column and row of the frame.
   float Post(int column, int row) const {
     return heights_m_[static_cast<std::size_t>(column) * static_cast<std::size_t>(frame_.rows) +
                       static_cast<std::size_t>(row)];
@@ -44,6 +46,7 @@ class ElevationGrid {
   std::span<const float> heights_m() const { return heights_m_; }
   const std::string& projection_wkt() const { return projection_wkt_; }
 
+  // (x, y) in W. Not inside outside of the edges, beside a void post and for NaN.
   GridSample At(double x_m, double y_m) const;
 
  private:

@@ -29,6 +29,7 @@ class Geographic {
 
   // Nothing where the projection has no such place.
   std::optional<EarthPlace> ToEarth(double x_m, double y_m) const;
+  // Metres east and north in the map, as the coordinate system counts them.
   std::optional<Eigen::Vector2d> ToMap(const EarthPlace& place) const;
 
  private:

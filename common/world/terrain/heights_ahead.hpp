@@ -22,6 +22,7 @@ class HeightsAhead {
   }
 
   bool any() const { return heights_m_ != nullptr; }
+  // (x, y) in W that will be asked for about kAhead questions later. Without any() it does nothing.
   void Fetch(double x_m, double y_m) const {
     const double column = (x_m - west_m_) * columns_a_m_, row = (y_m - south_m_) * rows_a_m_;
     if (!(column >= 0.0 && column < columns_ - 1 && row >= 0.0 && row < rows_)) return;

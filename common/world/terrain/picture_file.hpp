@@ -29,11 +29,13 @@ struct PicturePlace {
   double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
 };
 
+// What is known of a picture without its pixels.
 struct PictureFacts {
   int width_px = 0, height_px = 0;
   std::optional<PicturePlace> place;  // none where it is not said, or it is turned
 };
 
+// A picture's pixels, three bytes each: red, green, blue.
 struct PictureFile {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> rgb;  // rows from the top

@@ -12,6 +12,7 @@ namespace rodeira::traffic_map {
 // Findings are added by element, whatever it is, each with the id of its rule.
 class Findings {
  public:
+  // The sentence has no place; number and line are the element's.
   void Add(Severity severity, const Line<Curve>& curve, base::ErrorId id, std::string sentence) {
     all_.push_back({severity, Element::kCurve, curve.value.id, 0, curve.number, id, std::move(sentence)});
   }
@@ -34,6 +35,7 @@ class Findings {
   void Add(Severity severity, const LaneFlow& flow, base::ErrorId id, std::string sentence) {
     all_.push_back({severity, Element::kFlow, flow.lane, 0, flow.line, id, std::move(sentence)});
   }
+  // Of the map as a whole.
   void Add(Severity severity, base::ErrorId id, std::string sentence) {
     all_.push_back({severity, Element::kMap, 0, 0, 0, id, std::move(sentence)});
   }

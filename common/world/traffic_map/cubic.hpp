@@ -12,6 +12,7 @@ struct Cubic {
   std::array<Eigen::Vector2d, 4> p_W{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
                                      Eigen::Vector2d::Zero()};
 
+  // The point at t.
   Eigen::Vector2d At(double t) const;
   Eigen::Vector2d Slope(double t) const;  // dB/dt, m
   Eigen::Vector2d Bend(double t) const;   // d²B/dt², m
@@ -21,6 +22,7 @@ struct Cubic {
   // Positive to the left, 1/m: (x'y'' − y'x'')/|B'|³. Where dB/dt vanishes, the value a millionth of the curve further
   // in.
   double Curvature(double t) const;
+  // The same points, run through from t = 1 to t = 0.
   Cubic Reversed() const { return {{p_W[3], p_W[2], p_W[1], p_W[0]}}; }
   // Sides of the control polygon added up: no part of the curve is longer, m.
   double PolygonLength() const;

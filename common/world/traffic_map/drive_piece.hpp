@@ -31,7 +31,9 @@ struct DriveError {
   double border_m = 0.0;
   double height_m = 0.0;
 
+  // The largest of the three.
   double Most() const;
+  // Each error becomes the larger of both.
   void Include(const DriveError& other);
 };
 

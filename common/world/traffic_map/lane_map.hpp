@@ -23,6 +23,7 @@ class NumberIndex {
     for (std::size_t i = 0; i < lines.size(); ++i) places_.emplace_back(lines[i].value.id, i);
     Sort();
   }
+  // Nothing where no element has the number.
   std::optional<std::size_t> Find(std::int32_t number) const;
 
  private:
@@ -33,6 +34,7 @@ class NumberIndex {
 // A lane's side with its curve turned into the direction of the traffic.
 Border BorderOf(const LaneSide& side, const Curve& curve, const Heights& heights);
 
+// A lane of the map in the direction of its traffic.
 struct MapLane {
   std::int32_t id = 0;
   LaneMode mode = LaneMode::kNone;
@@ -45,6 +47,7 @@ struct MapLane {
       right{};  // the lane beside, which has the same curve for a side and lies across it; nothing where several do
 };
 
+// Traffic may go from the end of one lane to the beginning of another.
 struct MapConnection {
   std::size_t from = 0;  // indices of lanes
   std::size_t to = 0;

@@ -44,7 +44,9 @@ class LaneShape {
   double length_m() const { return along_.length_m(); }
   // s is held within [0, length], t within [0, 1].
   LanePoint At(double s_m) const { return AtParameter(along_.ParameterAt(s_m)); }
+  // By the parameter t of the middle's cubic.
   LanePoint AtParameter(double t) const;
+  // The distance along the middle, m, at its parameter t.
   double DistanceAt(double t) const { return along_.DistanceAt(t); }
 
  private:

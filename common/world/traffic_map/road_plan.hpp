@@ -55,6 +55,7 @@ struct RoadPlan {
   std::vector<std::vector<PlannedWay>> junctions;
 };
 
+// A pure function of the map; roads and junctions have indices in it.
 RoadPlan PlanRoads(const LaneMap& map, Junctions kind);
 
 }  // namespace rodeira::traffic_map

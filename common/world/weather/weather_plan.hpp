@@ -25,6 +25,7 @@ class WeatherPlan {
   // `changes` by time.
   explicit WeatherPlan(std::vector<Change> changes) : changes_(std::move(changes)) {}
 
+  // time_s: seconds since the run's beginning; what no change names has its value of Weather{}.
   Weather At(double time_s) const;
   // One more, behind those of its time and before later ones.
   void Add(const Change& change);

@@ -17,6 +17,7 @@ class WetGround final : public ground::Ground {
   // The ground must outlive it.
   explicit WetGround(ground::Ground& dry) : dry_(dry) {}
 
+  // From 0 (dry) to 1 (a closed film of water); it counts from the next query on.
   void set_wetness(double wetness) { wetness_ = wetness; }
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
 

@@ -5,6 +5,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira edit`.
 struct EditOptions {
   std::string file;  // empty: a new map
 };

@@ -16,6 +16,7 @@ struct JoysticksOptions {
   bool watch = false;
   std::optional<double> duration_s;  // of watching; otherwise until Ctrl-C
 };
+// Returns the exit status.
 int ListJoysticks(const JoysticksOptions& options);
 
 // A table of what is plugged in, a line a device; what to do where there is none.

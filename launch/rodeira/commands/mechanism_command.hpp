@@ -5,6 +5,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira mechanism run`; texts are paths, empty: not written.
 struct MechanismOptions {
   std::string file;
   double until_s = 0.0;

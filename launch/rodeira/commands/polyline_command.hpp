@@ -6,6 +6,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira polyline`.
 struct PolylineOptions {
   std::string command;  // join, translate, rotate, scale, offset
   std::vector<std::string> files;

@@ -5,6 +5,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira surface`.
 struct SurfaceOptions {
   std::string command;  // check
   std::string file;

@@ -21,6 +21,7 @@ class TrafficFiles {
   static base::Result<TrafficFiles> Open(const TrafficOptions& options, const network::Network& network);
 
   bool wants_cells() const { return !options_.csv.empty() || !options_.heat.empty(); }
+  // Moments in ascending order of time. A disk that is full is told by Close.
   void Write(const traffic::StudyMoment& moment);
   // What was written, a path each.
   base::Result<std::vector<std::string>> Close(const network::Network& network, const traffic::StudyResult& result);

@@ -6,6 +6,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira vehicle`.
 struct VehicleOptions {
   std::string command;                  // "test", "rig", "tyre" or "list"
   std::string file;                     // a path, or the name of a vehicle (InputKind::kVehicle); a tyre file

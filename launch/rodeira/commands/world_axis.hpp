@@ -14,6 +14,7 @@ namespace rodeira::cli {
 struct AxisName {
   std::string file, road;
 };
+// Whether file and road exist is not looked at.
 std::optional<AxisName> AxisNameOf(std::string_view text);
 
 // The axis of a world's road as a chain of points with heights, `step_m` apart (the last piece may be shorter). Wrong

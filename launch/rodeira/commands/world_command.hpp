@@ -25,6 +25,7 @@ struct WorldOptions {
   std::string profile;
 };
 
+// Returns the exit status.
 int World(const WorldOptions& options);
 
 }  // namespace rodeira::cli

@@ -14,6 +14,7 @@ struct WorldImportOptions {
   bool force = false;  // replaces files that exist
 };
 
+// Returns the exit status.
 int WorldImport(const WorldImportOptions& options);
 
 }  // namespace rodeira::cli

@@ -9,6 +9,7 @@
 
 namespace rodeira::cli {
 
+// What the check loads, and in which environment.
 struct GlSettings {
   std::string library = "libEGL.so.1";
   std::vector<std::pair<std::string, std::string>> environment;  // set in the process that draws

@@ -44,10 +44,12 @@ struct DisplayPlace {
   std::string wayland;         // $WAYLAND_DISPLAY
   std::string runtime_folder;  // $XDG_RUNTIME_DIR
   std::filesystem::path x11_sockets = "/tmp/.X11-unix";
+  // By its environment.
   static DisplayPlace OfThisProcess();
 };
 Finding CheckDisplay(const DisplayPlace& place);
 
+// `cores`: as the system counts them.
 Finding CheckCores(unsigned int cores);
 // Memory that is free for new programs, from PROC/meminfo.
 Finding CheckMemory(const std::filesystem::path& proc = "/proc");

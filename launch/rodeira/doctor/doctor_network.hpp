@@ -23,6 +23,7 @@ Finding CheckSharedMemory(const std::filesystem::path& folder = "/dev/shm", std:
 // Fast DDS takes others, and another program of the same domain is allowed.
 Finding CheckPorts(std::uint32_t domain);
 
+// How the check of an exchange is done.
 struct LoopBackSettings {
   launch::Transport transport = launch::Transport::kSharedMemory;
   std::uint32_t domain = 0;
@@ -32,6 +33,7 @@ struct LoopBackSettings {
   std::chrono::milliseconds patience{3000};  // for each answer
   std::function<bool()> cancelled = [] { return false; };
 };
+// Times from a question to its answer.
 struct LoopBack {
   double median_us = 0.0;
   double worst_percent_us = 0.0;  // 99 of 100 round trips were faster

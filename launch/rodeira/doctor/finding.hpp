@@ -24,6 +24,7 @@ struct Finding {
   base::ErrorId id = {};  // of what is not well
 };
 
+// The id names the kind of what is not well (docs/reference/errors.md).
 inline Finding Ok(std::string check, std::string sentence) {
   return {std::move(check), Verdict::kOk, std::move(sentence)};
 }

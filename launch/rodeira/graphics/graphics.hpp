@@ -15,6 +15,7 @@
 // (docs/decisions/0026-light-front-door.md).
 namespace rodeira::cli {
 
+// The entries of what draws. Those that return an int return the exit status.
 struct Graphics {
   bool (*has_display)() = nullptr;  // whether a display answers
   int (*start_window)() = nullptr;

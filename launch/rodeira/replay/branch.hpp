@@ -13,6 +13,7 @@
 
 namespace rodeira::cli {
 
+// What is branched off, where, and with which changes.
 struct BranchSpec {
   std::string parent;                       // recording
   lockstep::Step at = 0;                    // base steps: where the branch leaves its parent
@@ -27,6 +28,7 @@ struct BranchSpec {
   launch::Overrides libraries = {};                                   // nodes.NAME.library, of external nodes
 };
 
+// What came of a branch.
 struct BranchOutcome {
   lockstep::Step recomputed_from = 0;
   lockstep::Step at = 0;
@@ -47,6 +49,7 @@ struct BranchOutcome {
 // otherwise by its recorded samples. Wrong input: a step outside the run or between two activations of a node, changes
 // that change the roster, a view where there is none.
 base::Result<BranchOutcome> Branch(const BranchSpec& wish);
+// The nodes that a person drives in a branch.
 struct LiveDrivers {
   std::vector<std::string> names;
   bool by_device = false;  // one of them by a wheel or a game pad

@@ -15,6 +15,7 @@ namespace rodeira::cli {
 // identical. Samples of the lockstep are those of a channel with a period.
 class ContentDigest {
  public:
+  // The next message of the file; others than samples of the lockstep change nothing.
   void Add(const record::Channel& channel, const record::Message& message) {
     auto found = names_.find(channel.id);
     if (found == names_.end()) found = names_.emplace(channel.id, NameOf(channel)).first;

@@ -30,6 +30,7 @@ struct RecordedSource {
   bool lossless() const { return !audit || (audit->whole() && audit->first_step == 0 && !ends_early); }
 };
 
+// What a recording holds, and whether all of it is there.
 struct RecordingAudit {
   std::vector<RecordedSource> sources;    // by channel
   std::vector<std::string> damages;       // sentences

@@ -18,6 +18,7 @@ std::string WrittenFile(const std::string& recording, double reached_s);
 // What follows from it that a node cannot save its state: for a run, and for a recording that is computed again. A line
 // a node.
 std::string WithoutStateLine(const std::string& node);
+// Of the nodes with these names.
 std::string ComputedFromTheStart(const std::vector<std::string>& nodes);
 
 // Where another program recorded than this one: a line that says so, because another one may compute other bits. Empty

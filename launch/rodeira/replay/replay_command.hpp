@@ -11,6 +11,7 @@
 
 namespace rodeira::cli {
 
+// The command line of `rodeira replay`.
 struct ReplayOptions {
   std::string file;
   bool verify = false;

@@ -14,6 +14,7 @@
 
 namespace rodeira::cli {
 
+// What was computed again and compared; without a difference it is equal to the bit.
 struct VerifyResult {
   lockstep::Step first_step = 0;  // where the computation began: a snapshot at or before what was asked
   lockstep::Step last_step = 0;
@@ -34,6 +35,7 @@ struct Recomputation {
   std::function<void(lockstep::Step)> on_progress;
   std::function<bool()> stop_requested;  // it fails then
 };
+// The result of Recompute.
 struct Recomputed {
   VerifyResult verdict;
   std::vector<lockstep::Snapshot> snapshots;  // one for each node where they were asked for
@@ -42,6 +44,8 @@ struct Recomputed {
   std::shared_ptr<LocalNodes> nodes;
   std::map<lockstep::NodeIndex, std::vector<lockstep::Sample>> last_published;
 };
+// Runs the recorded nodes in this process. Wrong input where the recording cannot be read or begun, failed where a node
+// fails.
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
 
 // Says on standard error what was repaired in the recorded world, as a run does.

@@ -7,6 +7,7 @@
 
 namespace rodeira::cli {
 
+// What of a recording is shown or drawn, and how.
 struct WatchOptions {
   std::string file;
   double from_s = 0.0;  // of the window

@@ -30,6 +30,7 @@ class NodeProcesses {
 
   // The clock, or on the other PCs of a laboratory its follower. First.
   base::Status StartClock();
+  // All nodes of this PC. Failed where a program cannot be started.
   base::Status StartNodes();
   bool has_nodes() const { return has_nodes_; }
 
@@ -57,6 +58,7 @@ class NodeProcesses {
   // The incarnation of a node that this PC runs.
   std::uint32_t incarnation(const std::string& name) const;
 
+  // Child::Poll of all processes.
   void Poll();
   Child& clock() { return children_.front(); }
   const std::vector<Child>& children() const { return children_; }  // the clock first

@@ -18,6 +18,7 @@ class Placement {
   static base::Result<Placement> Find(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides);
 
   bool has_clock() const { return !lab_ || lab_->clock() == host_; }
+  // Whether the node runs on this PC.
   bool Has(const launch::LaunchNode& node) const { return !lab_ || lab_->HostOf(node) == host_; }
   const std::string& host() const { return host_; }  // empty: there is one PC
   // "host 'left' (192.168.10.1)", of the clock.

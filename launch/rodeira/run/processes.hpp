@@ -56,6 +56,7 @@ class Child {
   std::string crash_node() const { return log_ == nullptr ? "" : log_->crash_node(); }
   int out() const { return out_; }           // to read from; -1 without pipes
   void Send(const std::string& line) const;  // to its standard input
+  // The child reads the end of its standard input.
   void CloseInput();
 
  private:

@@ -10,6 +10,7 @@ namespace rodeira::cli {
 
 // What the clock says line by line (common/runtime/dds/run_clock.cpp), gathered for the closing table.
 struct RunReport {
+  // A node's row of the closing table; times are wall time.
   struct Node {
     std::string name;
     std::uint64_t steps = 0;

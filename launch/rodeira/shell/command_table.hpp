@@ -8,6 +8,7 @@
 // The commands of a program as a list, from its parser: the source of the manual page and of the shells' completion.
 namespace rodeira::cli {
 
+// An option or an argument of a command.
 struct OptionEntry {
   std::vector<std::string> names;  // "--driver", "-o"; of an argument only its name, "LAUNCH.yaml"
   bool is_argument = false;
@@ -18,6 +19,7 @@ struct OptionEntry {
   std::string description;
 };
 
+// A command, and what it takes.
 struct CommandEntry {
   std::string path;  // "rodeira world info"
   std::string description;

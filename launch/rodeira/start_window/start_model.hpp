@@ -12,6 +12,7 @@ namespace rodeira::cli {
 enum class StartDriver { kKeyboard, kWheel, kPad, kAutopilot };
 enum class StartWay { kDrive, kWatch };
 
+// What a person has chosen in the start window.
 struct StartChoice {
   StartWay way = StartWay::kDrive;
   std::filesystem::path world, vehicle;

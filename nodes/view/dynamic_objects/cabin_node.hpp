@@ -18,6 +18,7 @@ namespace rodeira::nodes {
 // gear, the steering wheel that turns.
 class CabinNode {
  public:
+  // The library outlives it.
   explicit CabinNode(MaterialLibrary& look);
   osg::Node* node() { return group_; }
 

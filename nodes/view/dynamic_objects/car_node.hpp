@@ -23,8 +23,12 @@ class CarNode {
   CarNode(MaterialLibrary& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint);
   osg::Node* node() { return body_; }
 
+  // The car's body in W; wheels and lamps stay as they are on it.
   void Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB);
+  // Wheel 0 to 3: front left, front right, rear left, rear right. Steering is positive to the left, spin rolling
+  // forward.
   void Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad);
+  // By scene::Lamp, each from 0 (dull) to 1.
   void SetLamps(const std::array<float, scene::kLamps>& glows);
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
@@ -59,6 +63,7 @@ class PersonNode {
 
   // Where it is; its limbs as far as it has walked.
   void Place(const scene::AgentPose& person);
+  // As CarNode::Pulse.
   void Pulse(double share) { pulse_->set(static_cast<float>(share)); }
 
  private:
@@ -73,6 +78,7 @@ class PersonNode {
 // gone.
 class Fleet {
  public:
+  // The library outlives it.
   explicit Fleet(MaterialLibrary& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.

@@ -19,6 +19,7 @@ class LightsNode {
   LightsNode(MaterialLibrary& look, const road::World& world);
   osg::Node* node() { return group_; }
 
+  // Ascending by controller; those of controllers that are not named are dark.
   void Show(const std::vector<scene::LightShown>& lights);
 
  private:

@@ -18,6 +18,7 @@ base::Result<scene::Colour> PaintOf(std::string_view text);
 
 // The paints that a person chose, by the cars' ids. The others keep theirs.
 using CarPaints = std::map<std::uint64_t, scene::Colour>;
+// Of the moment's cars.
 void PaintCars(scene::SceneSnapshot& moment, const CarPaints& paints);
 
 }  // namespace rodeira::nodes

@@ -18,6 +18,7 @@ class FrameLog {
  public:
   // Wrong input where the file cannot be written.
   static base::Result<std::unique_ptr<FrameLog>> Open(const std::filesystem::path& file);
+  // `followed`: a body of the moment, as scene::BodyAt counts; without it no line is written.
   void Add(double wall_s, const scene::SceneSnapshot& moment, std::size_t followed, const scene::Camera& camera);
 
  private:

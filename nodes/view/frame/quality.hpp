@@ -12,8 +12,10 @@ enum class Quality { kLow, kMedium, kHigh };
 
 // "low", "medium", "high": as settings and options name them.
 std::span<const std::string_view> QualityNames();
+// Nothing for another name.
 std::optional<Quality> QualityOf(std::string_view name);
 
+// What a quality means for the drawing.
 struct QualityTraits {
   int samples = 0;            // a pixel, at most; 0: one, edges are steps
   float detail_scale = 1.0F;  // levels of detail change at so much smaller distances
@@ -28,6 +30,7 @@ struct QualityTraits {
       1.0F;  // times a picture is looked up where it is seen at a slant, at most; 1 wherever the processor draws
   bool mirrors_in_turn = false;  // of a window: one of them is drawn anew in each picture while time goes on
 };
+// Lives as long as the program.
 const QualityTraits& TraitsOf(Quality quality);
 
 }  // namespace rodeira::nodes

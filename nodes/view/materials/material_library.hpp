@@ -25,6 +25,7 @@ namespace rodeira::nodes {
 // alone, and the ground, in both. The sky and what lies flat on the ground have neither.
 inline constexpr unsigned kThrowsShadow = 0x2U, kGroundThrowsShadow = 0x4U;
 inline constexpr unsigned kThrowsNone = ~(kThrowsShadow | kGroundThrowsShadow), kOnlyNear = ~kGroundThrowsShadow;
+// The node mask of a geometry of this material.
 unsigned ShadowMaskOf(scene::Material material);
 
 // From the sources of its shaders, with the attributes of RepeatedGeometry in their slots.

@@ -9,6 +9,7 @@
 
 namespace rodeira::nodes {
 
+// The same numbers.
 inline osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // Not an overload of ToOsg: with both, an Eigen expression would be ambiguous.

@@ -20,6 +20,7 @@ namespace rodeira::nodes {
 struct HeatLegend {
   std::string title, low, middle, high;
 };
+// In the scale's unit.
 HeatLegend LegendOf(const HeatPicture& heat);
 
 // The colours of a statistic over the ground, 70 of them in 100 and 30 of the ground: a texture of numbers, which the

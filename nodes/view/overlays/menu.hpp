@@ -36,6 +36,7 @@ class Menu {
   Menu(const Menu&) = delete;
   Menu& operator=(const Menu&) = delete;
 
+  // Opens or closes it.
   void Toggle();
   bool open() const { return open_; }
   // True where the event is the menu's: on it, or on its button.

@@ -14,6 +14,7 @@ namespace rodeira::nodes {
 // installed, otherwise OpenSceneGraph's own.
 
 osg::ref_ptr<osg::Camera> MakeOverlay();
+// To a picture of this size, whenever the size has changed.
 void FitOverlay(osg::Camera& overlay, int width_px, int height_px);
 // Panels keep their share of a picture: they are laid out in units of which a picture has 720 from below to above, more
 // where it is narrower than it is high by 4 : 3, and at most twice as many as it has pixels, so that letters can be
@@ -22,12 +23,14 @@ struct PanelSize {
   float scale = 1.0F;                 // pixels a unit
   float width = 0.0F, height = 0.0F;  // of the picture, in units
 };
+// Of a picture of this size, both over 0.
 PanelSize PanelsOf(int width_px, int height_px);
 // White, to be placed and filled later; over the boxes.
 osg::ref_ptr<osgText::Text> AddText(osg::Group& overlay, float size_px, osgText::TextBase::AlignmentType alignment);
 // Upright boxes of one colour.
 class Boxes {
  public:
+  // Edges, from the lower left corner of what the overlay lies over.
   struct Box {
     float left = 0.0F, low = 0.0F, right = 0.0F, high = 0.0F;
 

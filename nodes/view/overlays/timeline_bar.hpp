@@ -22,6 +22,7 @@ struct TimelinePlace {
   float XOf(double share) const { return kMargin + static_cast<float>(share) * (width - 2.0F * kMargin); }
   // At a pixel.
   double ShareAt(double x_px) const;
+  // Whether a place so many pixels above the lower edge is on the bar.
   bool Holds(double height_px) const { return height_px >= 0.0 && height_px < static_cast<double>(scale * kHeight); }
 };
 
@@ -29,6 +30,7 @@ struct TimelinePlace {
 class TimelineBar {
  public:
   explicit TimelineBar(osg::Group& overlay);
+  // Nothing: the bar is not drawn.
   void Show(const std::optional<Timeline>& timeline, const PanelSize& size);
 
  private:

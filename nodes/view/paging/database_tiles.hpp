@@ -30,6 +30,7 @@ class DatabaseTiles {
  public:
   virtual ~DatabaseTiles() = default;
   virtual std::size_t count() const = 0;
+  // Precondition: tile < count(); so for all below.
   virtual TileFiles FilesOf(std::size_t tile) const = 0;
   // Of all that can change a bit of the tile.
   virtual base::Digest SourceOf(std::size_t tile) const = 0;

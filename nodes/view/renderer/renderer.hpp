@@ -49,6 +49,7 @@ class Renderer {
   void DrawWhole(const Picture& picture, const scene::Progress& progress = {});
   // From where such a picture is seen.
   scene::Camera CameraOf(const Picture& picture) const;
+  // Of the picture that was drawn last.
   PictureCost CostOfLast() const;
   // How many levels of tiles are in memory, of ground that is read or made as the eye comes near; 0 where all of it is
   // there from the beginning.

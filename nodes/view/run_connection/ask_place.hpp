@@ -26,6 +26,7 @@ using CarStarts = std::map<std::uint64_t, CarStart>;
 struct StartPlace {
   double x_m = 0.0, y_m = 0.0, heading_deg = 0.0;
 };
+// In W; a place of its own without a heading faces east.
 StartPlace PlaceOfStart(const road::World& world, const CarStart& own);
 
 // What a person asks for by pointing at the ground: the followed car (of the traffic: the first driven one) there,

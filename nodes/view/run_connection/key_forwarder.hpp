@@ -22,6 +22,7 @@ class KeyForwarder {
   // Keys, mouse buttons, and the loss of focus; everything else is passed over. Not for keys that the window keeps
   // itself.
   void Take(const SDL_Event& event);
+  // All keys count as up; Tell says so.
   void ReleaseAll();
   // Says what is due.
   void Tell(double now_s);

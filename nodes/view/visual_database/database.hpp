@@ -11,12 +11,14 @@
 
 namespace rodeira::nodes {
 
+// Where the files go; `progress` is called with the tiles that are done and how many there are.
 struct DatabaseOptions {
   std::filesystem::path folder;
   unsigned threads = 0;  // 0: as many as the machine has
   std::function<void(std::size_t done, std::size_t of)> progress = [](std::size_t, std::size_t) {};
 };
 
+// What was written.
 struct DatabaseReport {
   std::size_t tiles = 0;
   std::size_t built = 0;    // the others were there already

@@ -9,6 +9,7 @@
 
 namespace rodeira::scene {
 
+// A half line.
 struct Ray {
   Eigen::Vector3d from_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d along_W = Eigen::Vector3d::UnitX();  // unit

@@ -6,6 +6,7 @@
 
 namespace rodeira::scene {
 
+// How it is drawn where nothing else is said.
 Colour SurfaceColour(ground::Surface surface);
 
 // Smooth noise in [-1, 1] with features of about `wavelength_m`, a pure function of place and seed.

@@ -49,7 +49,9 @@ class HeatMap {
   // The world must outlive it.
   explicit HeatMap(const road::World& world) : world_(world) {}
 
+  // The next moment that is shown. The same one again changes nothing.
   void Add(const SceneSnapshot& moment);
+  // Begins anew.
   void Clear();
   double watched_s() const { return watched_s_; }
 

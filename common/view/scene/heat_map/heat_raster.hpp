@@ -19,6 +19,7 @@ struct HeatRaster {
   // its height (0: there is none; 65535 is lowest_m + range_m), and both of the upper one.
   std::vector<std::uint16_t> texels;
 
+  // Four numbers. Precondition: column < columns, row < rows.
   const std::uint16_t* At(std::size_t column, std::size_t row) const { return &texels[4 * (row * columns + column)]; }
 };
 

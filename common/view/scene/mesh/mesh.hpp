@@ -31,6 +31,7 @@ inline constexpr int kMaterials = 14;
 // Whether it is ground, or lies on it.
 bool IsGround(Material material);
 
+// sRGB, eight bits a part.
 struct Colour {
   std::uint8_t red = 255;
   std::uint8_t green = 255;
@@ -65,6 +66,7 @@ struct Mesh {
 
   // A vertex at a point in W; `normal` has unit length. Returns its index, for AddTriangle.
   std::uint32_t Add(const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal, Colour colour);
+  // Indices of vertices, counter-clockwise seen from outside.
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { triangles.insert(triangles.end(), {a, b, c}); }
   // The other mesh behind this one; it must have the same origin.
   void Append(const Mesh& other);

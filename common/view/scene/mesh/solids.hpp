@@ -16,8 +16,10 @@ struct Stand {
   Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();
   Eigen::Vector2d x_W = Eigen::Vector2d::UnitX();
 
+  // The heading counts from east to north.
   static Stand At(const Eigen::Vector3d& foot_W, double heading_rad);
   Eigen::Vector3d ToWorld(const Eigen::Vector3d& p) const { return foot_W + Turned(p); }
+  // A direction of the stand's frame, in W.
   Eigen::Vector3d Turned(const Eigen::Vector3d& v) const {
     return {x_W.x() * v.x() - x_W.y() * v.y(), x_W.y() * v.x() + x_W.x() * v.y(), v.z()};
   }
@@ -36,6 +38,7 @@ struct BarEnd {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   double wide_m = 0.0, high_m = 0.0;
 };
+// `sides`: of a round bar. Nothing where both ends are one point.
 void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int sides, const Eigen::Vector2d& across_W,
             Colour colour);
 // A polygon, counter-clockwise seen from above, as triangles of its corners; nothing where it crosses itself.

@@ -26,14 +26,17 @@ class Player {
   void Seek(std::int64_t time_ns);
   // To the next or, with -1, the previous picture, and stands still there.
   void StepPicture(int direction);
+  // It stands still where it is.
   void Pause() { paused_ = true; }
   // Where it stands at the end towards which it plays, it begins again at the other one.
   void PlayOrPause();
+  // Plays in the other direction from now on.
   void Reverse() { backward_ = !backward_; }
   // Held to [kSlowest, kFastest].
   void set_speed(double speed);
   // To the next of 0.1 0.2 0.5 1 2 5 10.
   void Faster();
+  // To the one before.
   void Slower();
 
  private:

@@ -17,6 +17,7 @@ struct Raster {
   int height_px = 0;
   std::vector<Colour> pixels;
 
+  // Column and row from the lower left corner. Precondition: within the picture.
   Colour At(int x, int y) const {
     return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)];
   }
@@ -32,11 +33,13 @@ class Canvas {
   double half_width() const { return half_width_; }
   // Inside: where a ray crosses the outline an odd number of times.
   void Fill(Points outline, Colour colour);
+  // Lengths are in the picture's coordinates.
   void Disc(const Eigen::Vector2d& middle, double radius, Colour colour);
   // A line with round ends and corners.
   void Stroke(Points points, double width, Colour colour);
   // The same with square ends.
   void Bar(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width, Colour colour);
+  // The mean of each pixel's samples.
   Raster Paint() const;
 
  private:

@@ -12,6 +12,7 @@ namespace rodeira::scene {
 constexpr double kPost_m = 0.038;       // radius of a sign's post
 constexpr double kLightHousing = 0.17;  // half the width of a traffic light, of its height
 
+// Of an upright box about the model.
 struct ModelSize {
   double length_m = 0.0;  // along x
   double width_m = 0.0;   // along y

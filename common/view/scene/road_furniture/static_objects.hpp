@@ -79,6 +79,7 @@ class StaticObjects {
   // In place of a model that is not there stands what is drawn without one.
   explicit StaticObjects(const road::World& world, ModelIsThere is_there = {});
 
+  // What stands in it, in W.
   struct Tile {
     std::vector<Thing> things;
     std::vector<RailPiece> rails;

@@ -25,6 +25,7 @@ TreeKind KindOf(const Tree& tree);
 // One of a kind, 1 m high and with a crown of 1 m radius: about 70 triangles at level 0, 30 at level 1, 16 from level 2
 // on. It stands nowhere yet.
 Repeated TreeModel(TreeKind kind, int level);
+// Where TreeModel's tree of its kind is put, with its size and colour.
 StandingPlace PlaceOf(const Tree& tree);
 
 }  // namespace rodeira::scene

@@ -27,6 +27,7 @@ void AddPaint(const PaintPiece& piece, TilePaint& paint);
 // A road's lines in pieces, for each tile those that touch it. The edges of a piece lie within chord_m of the line's.
 void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint);
 
+// Of OpenDRIVE's words for colours; white for an unknown one.
 Colour PaintColour(std::string_view name);
 
 // The paint laid on a tile's ground, cut along its triangles: it lies in their planes exactly, whatever their size.

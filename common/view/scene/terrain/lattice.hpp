@@ -12,6 +12,7 @@ namespace rodeira::scene {
 // for a world on an elevation grid its own posts and triangles, for a plane a large piece of it around the start.
 class Lattice {
  public:
+  // inside: false where the post has no height.
   struct Sample {
     Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
     Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
@@ -27,6 +28,7 @@ class Lattice {
   Eigen::Vector2d spacing_m() const { return spacing_m_; }
   Material material() const { return material_; }
 
+  // Whether the post has a height. Precondition: column < columns(), row < rows().
   bool IsKnown(int column, int row) const;
   // A post: height, and normal and colour for smooth shading.
   Sample Post(int column, int row) const;

@@ -23,6 +23,7 @@ inline constexpr double kWelded_m = 0.001;
 // place. On the tile's edge the heights follow from the edge's points alone, which both tiles share.
 class TileHeights {
  public:
+  // Both outlive it.
   TileHeights(const road::World& world, const TilePlan& plan);
 
   // From the highest to the lowest, as many as the face has levels.

@@ -31,6 +31,7 @@ tessellation::GridPoint MiddleOf(const tessellation::Triangulation& triangles,
 // New triangles belong to the face that they were cut from.
 void PropagateFaces(TilePlan& plan);
 
+// The squared distance, in steps.
 inline double Squared(const tessellation::GridPoint& a, const tessellation::GridPoint& b) {
   const double dx = a.x - b.x, dy = a.y - b.y;
   return dx * dx + dy * dy;

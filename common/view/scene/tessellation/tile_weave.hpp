@@ -15,6 +15,7 @@ struct GroundTriangle {
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
 };
 
+// The ground of one tile at one level of detail.
 struct WovenTile {
   std::vector<Mesh> meshes;               // the ground by material; then walls and undersides
   std::vector<GroundTriangle> triangles;  // the ground again, without walls

@@ -30,6 +30,7 @@ class TileEdges {
   TileEdges() = default;
   explicit TileEdges(const PostLines& posts) : posts_(posts) {}
 
+  // Of the segments' ends those that lie on an edge of the tile, for both tiles beside it.
   void Add(const TileKey& tile, std::span<const tessellation::GridSegment> segments);
   // All points on the tile's four edges.
   std::vector<tessellation::GridPoint> Of(const TileKey& tile) const;

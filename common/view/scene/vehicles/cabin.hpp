@@ -19,6 +19,7 @@ struct Facing {
   Eigen::Vector3d ToE(const Eigen::Vector3d& p) const;
 };
 
+// An instrument on the dashboard.
 struct CabinDial {
   Dial dial;
   Facing place;
@@ -35,6 +36,7 @@ Eigen::Vector3d NeedleEnd_E(const CabinDial& dial, double value);
 Facing GearPlace();
 inline constexpr double kGearHeight_m = 0.032;
 
+// Of the steering wheel's middle.
 Facing WheelPlace();
 inline constexpr double kWheelRadius_m = 0.185;
 // The rim with its white mark, in the wheel's frame with the mark up; turning left is counter-clockwise.

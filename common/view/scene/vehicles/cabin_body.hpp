@@ -7,6 +7,7 @@
 // origin in the driver's eye, axes of the car's body (x forward, y left, z up).
 namespace rodeira::scene {
 
+// What the cabin's measures follow from.
 struct CabinShape {
   double width_m = 1.65, height_m = 1.42;         // of the car, outside
   double eye_left_m = 0.36, eye_height_m = 1.20;  // of the eye, from its middle and its ground

@@ -23,6 +23,7 @@ struct CarShape {
 
   // The driver's car as it stands on its wheels.
   static CarShape Of(const CarPose& car);
+  // Of a vehicle of the traffic.
   static CarShape Of(const AgentPose& agent);
 };
 
@@ -36,6 +37,7 @@ struct CarMeshes {
   // A closed part that shines as this lamp does.
   void AddLamp(Lamp lamp, Mesh part);
 };
+// In frame B.
 CarMeshes BuildCar(const CarShape& shape, Colour paint);
 // Of any kind but a pedestrian.
 CarMeshes BuildVehicle(AgentKind kind, const CarShape& shape, Colour paint);

@@ -16,6 +16,7 @@
 
 namespace rodeira::scene {
 
+// A wheel on its car.
 struct WheelPose {
   Eigen::Vector3d hub_B = Eigen::Vector3d::Zero();
   double steer_rad = 0.0;  // about B's z, positive to the left

@@ -12,6 +12,7 @@ namespace rodeira::scene {
 // Changes whenever the same world is drawn otherwise than before.
 inline constexpr const char* kGroundVersion = "ground 21";
 
+// Equal paint has equal digests: of pieces, and of a tile's.
 base::Digest PaintDigest(std::span<const PaintPiece> paint);
 base::Digest PaintDigest(const TilePaint& paint);
 // Of what is the same for all of a world's land: what it is made of, where the terrain's posts stand (not how high),

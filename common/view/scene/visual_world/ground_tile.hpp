@@ -18,6 +18,7 @@
 
 namespace rodeira::scene {
 
+// A tile at one level of detail.
 struct GroundLevel {
   std::vector<Mesh> ground;  // one a material, then walls; nothing above or below another but on another level of roads
   Mesh marks;                // in the planes of the ground's triangles: to be drawn after it, with an offset
@@ -55,11 +56,13 @@ class GroundPlan {
   explicit GroundPlan(const road::World& world, unsigned threads = 0, ModelIsThere is_there = {});
 
   std::span<const TileKey> tiles() const { return tiles_; }
+  // All of its levels. Precondition: one of tiles().
   GroundTile Build(const TileKey& tile) const;
   // One of its levels: the bits that it has in the whole tile.
   GroundLevel BuildLevel(const TileKey& tile, int level) const;
   // The finest level that is drawn as this one is, to the bit: bare land on which nothing stands has fewer levels.
   int FinestAlike(const TileKey& tile, int level) const;
+  // It holds all that Build makes for the tile.
   TileBall BallOf(const TileKey& tile) const;
   // How many pieces of lines are cut into it.
   std::size_t PiecesIn(const TileKey& tile) const;
