@@ -56,7 +56,7 @@ run_doxygen() {
   fi
   if [ -s "$doxygen_work/warnings" ]; then
     echo "$doxygen_script: doxygen warns:" >&2
-    sed "s|^$root/||" "$doxygen_work/warnings" >&2
+    sed "s|^$root/||; s|^$doxygen_work/headers/||" "$doxygen_work/warnings" >&2
     [ "$doxygen_check" = no ] || exit 1
   fi
 }

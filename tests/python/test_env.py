@@ -264,12 +264,15 @@ class Episodes(EnvTest):
     def test_the_page_keeps_its_lane(self):
         page = (ROOT / "docs/how-to/agent.md").read_text()
         script = self.folder / "agent.py"
-        script.write_text(re.search(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)[1])
+        seeds = 3 if "RODEIRA_LONG_TESTS" in os.environ else 1
+        text = re.search(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)[1]
+        self.assertIn("in range(3):", text)
+        script.write_text(text.replace("in range(3):", f"in range({seeds}):"))
         done = subprocess.run([sys.executable, script], cwd=self.folder, capture_output=True, text=True, check=False,
                               timeout=240, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(re.findall(r"seed (\d): ([\d.]+) s", done.stdout), [(str(i), "30.00") for i in range(3)])
-        self.assertEqual(len(list(self.folder.glob("agent-*.mcap"))), 3)
+        self.assertEqual(re.findall(r"seed (\d): ([\d.]+) s", done.stdout), [(str(i), "30.00") for i in range(seeds)])
+        self.assertEqual(len(list(self.folder.glob("agent-*.mcap"))), seeds)
 
 
 class Refusals(EnvTest):

@@ -65,7 +65,7 @@ RC_GTEST_PROP(BicycleProperty, StaysSaneUnderAnyControlsOnAnyGround, (std::uint3
                                  .speed_mps = base::RandomUniform({seed, 8}, -10, 60)};
   RC_ASSERT(car.Initialise(initial, ground).ok());
   RC_ASSERT(Sane(car.state()));
-  for (int i = 0; i < BriefOrLong(2500, 5000); ++i) {
+  for (int i = 0; i < BriefOrLong(1300, 5000); ++i) {
     car.Step(WildControls(seed, i), ground, kStep_s);
     RC_ASSERT(Sane(car.state()));
   }
@@ -75,9 +75,9 @@ RC_GTEST_PROP(BicycleProperty, RestoredAnywhereItGoesOnWithTheSameBits, (std::ui
   HillGround ground(seed, {.amplitude_m = 3.0, .ice = true});
   BicycleModel car(DefaultSettings());
   RC_ASSERT(car.Initialise({.speed_mps = 15.0}, ground).ok());
-  const int restore_at = static_cast<int>(base::RandomUniform({seed, 5}, 0, BriefOrLong(1000, 2000)));
+  const int restore_at = static_cast<int>(base::RandomUniform({seed, 5}, 0, BriefOrLong(600, 2000)));
   BicycleModel other(DefaultSettings());
-  for (int i = 0; i < BriefOrLong(1500, 3000); ++i) {
+  for (int i = 0; i < BriefOrLong(1000, 3000); ++i) {
     if (i == restore_at) {
       base::StateWriter writer;
       car.Save(writer);
