@@ -24,8 +24,8 @@ using Read = std::function<std::optional<base::Error>(const std::string& text)>;
 using Change = std::function<void(std::string& text, Draw& draw)>;
 
 // Gives the reader the good texts, which it must take, and RODEIRA_FUZZ_FILES seeded mutations of them from the number
-// RODEIRA_FUZZ_FIRST on: each taken or refused with a sentence, within a minute. Which one was being read is said where
-// that ends the process. `change` stands in the place of Mutate (tests/property/mutate.hpp).
+// RODEIRA_FUZZ_FIRST on: each taken or refused with a sentence, within a minute of the processor. Which one was being
+// read is said where that ends the process. `change` stands in the place of Mutate (tests/property/mutate.hpp).
 void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read, const Change& change = Mutate);
 
 }  // namespace rodeira::property

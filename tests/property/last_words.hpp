@@ -19,9 +19,9 @@ inline void SayAndDie(int number) {
   ::raise(number);
 }
 
-// Sanitizers end a process by SIGABRT (ASAN_OPTIONS=abort_on_error=1); SIGALRM is for what hangs.
+// Sanitizers end a process by SIGABRT (ASAN_OPTIONS=abort_on_error=1); SIGPROF and SIGALRM are for what hangs.
 inline void SayWhereItDies() {
-  for (const int number : {SIGALRM, SIGABRT, SIGFPE, SIGSEGV}) ::signal(number, SayAndDie);
+  for (const int number : {SIGALRM, SIGPROF, SIGABRT, SIGFPE, SIGSEGV}) ::signal(number, SayAndDie);
 }
 
 inline void NowTrying(const std::string& format, std::size_t number) {
