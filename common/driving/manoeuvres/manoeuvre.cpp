@@ -21,6 +21,7 @@ const std::vector<Manoeuvre>& Manoeuvres() {
       {"acceleration", "from rest, throttle on the floor", Acceleration},
       {"braking", "from 100 km/h, brake on the floor", Braking},
       {"split_friction", "braking from 80 km/h, the right wheels on ice", SplitFriction},
+      {"split_steered", "braking from 50 km/h, the right wheels on ice, hands hold the lane", SplitSteered},
       {"constant_radius", "a circle of 40 m, faster and faster", ConstantRadius},
       {"step_steer", "at 100 km/h, to 4 m/s²", StepSteer},
       {"sine", "at 80 km/h, 0.5 Hz", Sine},

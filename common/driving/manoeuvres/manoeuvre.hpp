@@ -55,6 +55,9 @@ base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s);
 // The same from 80 km/h with the right wheels on ice of friction 0.3 and the steering held straight. A car that turns
 // by more than 86 degrees before it rests has no distance.
 base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s);
+// From 50 km/h on such a road with hands that hold the lane, after UN R13-H, annex 6: also how far they turn the
+// steering wheel in the first two seconds and in all.
+base::Result<Outcome> SplitSteered(dynamics::VehicleModel& car, double step_s);
 // A circle of 40 m, faster and faster (after ISO 4138): understeer gradient (change of the front wheels' angle over
 // that of lateral acceleration) and roll gradient between 1 and 4 m/s², largest lateral acceleration.
 base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s);

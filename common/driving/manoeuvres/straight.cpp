@@ -76,8 +76,31 @@ class TopSpeedSearch {
   bool reached_ = false;
 };
 
+// Hands that hold the car in its lane of a straight road, by place, heading and yaw rate; they turn by 10 rad/s at
+// most.
+class LaneHands {
+ public:
+  void Turn(const Trial& t, Controls& controls) {
+    constexpr double kFastest_radps = 10.0, kEarly_s = 2.0, kPerMetre = 0.15, kPerRadps = 0.25;
+    const dynamics::VehicleState& s = t.state();
+    const double wheels_rad = -(kPerMetre * s.p_WB_W.y() + s.heading_rad() + kPerRadps * s.w_WB_B.z());
+    const double limit_rad = t.dimensions().steering_wheel_limit_rad, most_rad = kFastest_radps * t.step_s();
+    const double wanted_rad = std::clamp(wheels_rad * t.dimensions().steering_ratio, -limit_rad, limit_rad);
+    angle_rad_ += std::clamp(wanted_rad - angle_rad_, -most_rad, most_rad);
+    controls.steering_wheel_rad = angle_rad_;
+    largest_rad_ = std::max(largest_rad_, std::fabs(angle_rad_));
+    if (t.time_s() < kEarly_s) early_rad_ = largest_rad_;
+  }
+  double early_rad() const { return early_rad_; }
+  double largest_rad() const { return largest_rad_; }
+
+ private:
+  double angle_rad_ = 0.0, early_rad_ = 0.0, largest_rad_ = 0.0;
+};
+
+// `hands`: null where the steering is held straight.
 base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps,
-                                double step_s) {
+                                double step_s, LaneHands* hands = nullptr) {
   constexpr double kLongest_s = 120.0;
   auto trial = Trial::Begin(car, ground, speed_mps, step_s);
   if (!trial) return trial.error();
@@ -90,6 +113,7 @@ base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGround
   while (moves() && most_heading_rad < kTurned_rad) {
     if (t.time_s() > kLongest_s)
       return base::Failed("scenario.manoeuvre_failed", "the car does not come to rest within two minutes");
+    if (hands != nullptr) hands->Turn(t, controls);
     t.Step(controls);
     most_heading_rad = std::max(most_heading_rad, std::fabs(t.state().heading_rad()));
   }
@@ -152,6 +176,17 @@ base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s) 
   ProvingGroundSettings ground;
   ground.friction_right = 0.3;
   return BrakeFrom(car, ground, 80.0 / 3.6, step_s);
+}
+
+base::Result<Outcome> SplitSteered(dynamics::VehicleModel& car, double step_s) {
+  ProvingGroundSettings ground;
+  ground.friction_right = 0.3;
+  LaneHands hands;
+  auto outcome = BrakeFrom(car, ground, 50.0 / 3.6, step_s, &hands);
+  if (!outcome) return outcome;
+  outcome.value().figures.push_back({"steering in the first 2 s", hands.early_rad() * base::kDegreesPerRadian, "deg"});
+  outcome.value().figures.push_back({"largest steering", hands.largest_rad() * base::kDegreesPerRadian, "deg"});
+  return outcome;
 }
 
 base::Result<Outcome> Park(dynamics::VehicleModel& car, double step_s) {

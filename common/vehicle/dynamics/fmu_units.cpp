@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/core/geometry/angle.hpp"
 
@@ -76,7 +77,7 @@ std::optional<UnitConversion> ConversionOf(const fmi::Description& description, 
     return UnitConversion{usual->factor, 0.0};
   }
   const fmi::UnitDefinition& unit = defined->second;
-  if (!(unit.factor != 0.0)) return std::nullopt;
+  if (!std::isfinite(unit.factor) || unit.factor == 0.0 || !std::isfinite(unit.offset)) return std::nullopt;
   Exponents exponents = unit.exponents;
   const bool is_named_as_angle = usual != nullptr && usual->exponents[kRadian] != 0;
   if (exponents[kRadian] == 0 && wanted->exponents[kRadian] != 0 && is_named_as_angle)

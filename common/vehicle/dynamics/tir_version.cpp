@@ -12,13 +12,7 @@ namespace {
 struct OtherFormat {
   std::string_view name, what;
 };
-constexpr std::string_view kMotorcycle = "a motorcycle's tyre";
-constexpr auto kOthers = std::to_array<OtherFormat>({{"PAC_MC", kMotorcycle},
-                                                     {"PAC_MC2", kMotorcycle},
-                                                     {"MF_MCTYRE", kMotorcycle},
-                                                     {"MF-MCTYRE", kMotorcycle},
-                                                     {"MF-MCTIRE", kMotorcycle},
-                                                     {"PAC89", "the Magic Formula of 1989"},
+constexpr auto kOthers = std::to_array<OtherFormat>({{"PAC89", "the Magic Formula of 1989"},
                                                      {"PACEJKA_89", "the Magic Formula of 1989"},
                                                      {"PAC94", "the Magic Formula of 1994"},
                                                      {"PACEJKA_94", "the Magic Formula of 1994"},
@@ -32,6 +26,12 @@ constexpr auto kOthers = std::to_array<OtherFormat>({{"PAC_MC", kMotorcycle},
                                                      {"521_TIRE", "a tyre by tables"},
                                                      {"SOFT_SOIL", "a tyre on soft soil"},
                                                      {"AIRCRAFT_BASIC", "an aircraft's tyre"}});
+
+// PAC_MC, PAC_MC2, MF_MC, MF-MCTYRE, MF_MOTORCYCLE …
+bool IsOfMotorcycle(std::string_view format) {
+  return format.find("MOTORCYCLE") != std::string_view::npos || format.find("_MC") != std::string_view::npos ||
+         format.find("-MC") != std::string_view::npos;
+}
 
 struct VersionReader {
   const TirText& tir;
@@ -53,6 +53,7 @@ struct VersionReader {
       const std::string word = tir.Word(key);
       if (word.find("MOTORCYCLE") != std::string::npos || word == "MC" || word == "BIKE") return tir.Find(key);
     }
+    if (IsOfMotorcycle(tir.Word("PROPERTY_FILE_FORMAT"))) return tir.Find("PROPERTY_FILE_FORMAT");
     for (const char* key : {"MC_CONTOUR_A", "MC_CONTOUR_B"}) {
       const TirEntry* contour = tir.Find(key);
       if (contour != nullptr && TirNumber(contour->value).value_or(0.0) != 0.0) return contour;
@@ -64,7 +65,7 @@ struct VersionReader {
     const auto number = TirNumber(entry.value);
     const int type = number && *number == static_cast<int>(*number) ? static_cast<int>(*number) : -1;
     TirVersion version;
-    const bool is_old = type == 5 || type == 6 || type == 51 || type == 52;
+    const bool is_old = type == 5 || type == 6 || type == 21 || type == 51 || type == 52;
     version.equations = is_old ? MagicFormulaVersion::k52 : MagicFormulaVersion::k61;
     switch (type) {
       case 5:
@@ -74,6 +75,7 @@ struct VersionReader {
         version.name = "Magic Formula 5.1";
         break;
       case 6:
+      case 21:  // of TNO's programs before MF-Tyre 6
       case 52:
         version.name = "Magic Formula 5.2";
         return version;
@@ -92,7 +94,7 @@ struct VersionReader {
             "FITTYP 62: the forces of 6.2 are those of 6.1; its effects of camber on load and radius are missing");
         return version;
       default:
-        return Wrong(fmt::format("FITTYP is {}; 5, 6, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected",
+        return Wrong(fmt::format("FITTYP is {}; 5, 6, 21, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected",
                                  entry.value.empty() ? "empty" : entry.value),
                      &entry);
     }
@@ -108,7 +110,6 @@ struct VersionReader {
     const std::string format = tir.Word("PROPERTY_FILE_FORMAT");
     for (const OtherFormat& other : kOthers) {
       if (format != other.name) continue;
-      if (other.what == kMotorcycle) return Motorcycle(format_entry);
       return Wrong(fmt::format("PROPERTY_FILE_FORMAT is '{}', {}; the Magic Formula 5 or 6, PAC2002 or FIALA was "
                                "expected",
                                format_entry->value, other.what),

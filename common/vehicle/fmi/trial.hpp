@@ -23,8 +23,9 @@ struct TrialLimits {
 // trial: the caller meets it again.
 base::Status TryInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
                                   const TrialLimits& limits = {});
-// Tries whether a state of the FMU outlives its process: one process saves it behind the initialisation, another one
-// sets it, takes a step and frees the instance. Precondition: the FMU offers states and passed the trial above.
+// Tries whether a state of the FMU outlives its process: one process takes some steps, saves it and goes on, another
+// one sets it and goes on. Wrong input, too, where their outputs differ: some solvers begin anew with a state.
+// Precondition: the FMU offers states and passed the trial above.
 base::Status TryStateInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
                                        const TrialLimits& limits = {});
 

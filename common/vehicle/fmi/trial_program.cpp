@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "common/core/base/files.hpp"
@@ -39,23 +43,68 @@ struct StateTrial {
   std::filesystem::path file;
 };
 
-base::Status SaveState(Instance& instance, const std::filesystem::path& file) {
-  const auto bytes = instance.State();
-  if (!bytes) return bytes.error();
-  return base::WriteWhole(file,
-                          std::string_view(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()));
+// Steps before and behind the state: a solver has a history by then, which a state may leave out.
+constexpr int kSteps = 20;
+constexpr double kStep_s = 0.001;
+constexpr double kInput = 0.1;  // of each input, so that there is something to compute
+
+bool Steps(const Description& description, Instance& instance, int from) {
+  for (int i = from; i < from + kSteps; ++i) {
+    for (const Variable& variable : description.variables)
+      if (variable.causality == "input" && variable.type == VariableType::kReal) (void)instance.Set(variable, kInput);
+    if (!instance.DoStep(i * kStep_s, kStep_s)) return false;  // some FMUs take steps of one length only
+  }
+  return true;
 }
 
-// An error of the step is none of the state: some FMUs take steps of one length only.
-base::Status SetState(Instance& instance, const std::filesystem::path& file) {
-  constexpr double kStep_s = 0.001;
-  const auto text = base::ReadText(file, std::size_t{1} << 30);
+// Its outputs as lines of name and value, to the bit; empty where one cannot be read.
+std::string Outputs(const Description& description, Instance& instance) {
+  std::string text;
+  for (const Variable& variable : description.variables) {
+    if (variable.causality != "output" || variable.type == VariableType::kOther) continue;
+    const auto value = instance.Get(variable);
+    if (!value) return "";
+    text += fmt::format("{} = {}\n", variable.name, value.value());
+  }
+  return text;
+}
+
+std::filesystem::path OutputsFile(const std::filesystem::path& state) { return state.string() + ".outputs"; }
+
+base::Status SaveState(const Description& description, Instance& instance, const std::filesystem::path& file) {
+  const bool runs = Steps(description, instance, 0);
+  SayNext("fmi2GetFMUstate");
+  const auto bytes = instance.State();
+  if (!bytes) return bytes.error();
+  const std::string_view raw(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+  if (auto status = base::WriteWhole(file, raw); !status) return status;
+  SayNext("fmi2DoStep");
+  const bool goes_on = runs && Steps(description, instance, kSteps);
+  return base::WriteWhole(OutputsFile(file), goes_on ? Outputs(description, instance) : "");
+}
+
+// Wrong input where the FMU goes on from the state otherwise than it went on by itself. A step that fails is no failure
+// of the state.
+base::Status SetState(const Description& description, Instance& instance, const std::filesystem::path& file) {
+  constexpr std::size_t kMaxStateBytes = std::size_t{1} << 30;
+  const auto text = base::ReadText(file, kMaxStateBytes);
   if (!text) return text.error();
+  const auto expected = base::ReadText(OutputsFile(file), kMaxStateBytes);
+  if (!expected) return expected.error();
   SayNext("fmi2SetFMUstate");
   if (auto status = instance.SetState(std::as_bytes(std::span(text.value()))); !status) return status;
   SayNext("fmi2DoStep behind fmi2SetFMUstate");
-  (void)instance.DoStep(0.0, kStep_s);
-  return {};
+  const bool goes_on = Steps(description, instance, kSteps);
+  const std::string found = goes_on ? Outputs(description, instance) : "";
+  if (expected.value().empty() || found == expected.value()) return {};
+  const auto [one, other] = std::ranges::mismatch(found, expected.value());
+  const auto line = [](const std::string& whole, std::string::const_iterator at) {
+    const auto is_end = [](char c) { return c == '\n'; };
+    const auto begin = std::find_if(std::make_reverse_iterator(at), whole.rend(), is_end).base();
+    return std::string(begin, std::find_if(at, whole.end(), is_end));
+  };
+  return base::WrongInput("fmu.trial_failed", fmt::format("it goes on from its own state otherwise: {}; {} without it",
+                                                          line(found, one), line(expected.value(), other)));
 }
 
 void Try(const std::filesystem::path& folder, const std::string& file, const StateTrial& state) {
@@ -72,9 +121,8 @@ void Try(const std::filesystem::path& folder, const std::string& file, const Sta
     runs = instance.value()->ExitInitialisation().ok();
   }
   if (runs && state.what != StateTrial::What::kNone) {
-    SayNext("fmi2GetFMUstate");
-    const base::Status status = state.what == StateTrial::What::kSave ? SaveState(*instance.value(), state.file)
-                                                                      : SetState(*instance.value(), state.file);
+    const auto& act = state.what == StateTrial::What::kSave ? SaveState : SetState;
+    const base::Status status = act(unit.value()->description(), *instance.value(), state.file);
     if (!status) SayRefusal(status.error());
   }
   SayNext("fmi2FreeInstance");

@@ -254,12 +254,25 @@ class LoadedInstance final : public Instance {
   bool dead_ = false;
 };
 
-// The platforms that an FMU has binaries for.
+std::vector<std::string> FilesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(folder, problem))
+    if (entry.is_regular_file(problem)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// The platforms that an FMU has binaries for; for this one with their names.
 std::string Platforms(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code problem;
-  for (const auto& entry : fs::directory_iterator(folder / "binaries", problem))
-    names.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(folder / "binaries", problem)) {
+    const std::vector<std::string> files = FilesIn(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (files.empty()) continue;
+    names.push_back(name == "linux64" ? fmt::format("{} ({})", name, fmt::join(files, ", ")) : name);
+  }
   std::sort(names.begin(), names.end());
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -371,8 +384,8 @@ base::Result<std::unique_ptr<LoadedUnit>> LoadFolder(const fs::path& folder, con
     if (description.value().can_get_state && description.value().can_serialize_state) {
       if (auto status = TryStateInProcessOfItsOwn(folder, file); !status) {
         note = fmt::format(
-            "the state that it saves cannot be set in another process ({}); runs with it are computed "
-            "again from step 0",
+            "the state that it saves is of no use to another process ({}); runs with it are computed again "
+            "from step 0",
             status.error().message);
       }
     }

@@ -23,8 +23,8 @@ void AddVehicle(CLI::App& app, ChosenCommand& chosen) {
   test->add_option("VEHICLE.yaml", options->file, "vehicle file, or its name (default)")->required();
   test->add_option(
       "--manoeuvre", options->manoeuvres,
-      "acceleration, braking, split_friction, constant_radius, step_steer, sine, sine_with_dwell, lane_change, park, "
-      "bump; otherwise all");
+      "acceleration, braking, split_friction, split_steered, constant_radius, step_steer, sine, sine_with_dwell, "
+      "lane_change, park, bump; otherwise all");
   test->add_option("--step", options->step_s, "step in seconds")->capture_default_str();
   test->add_option("--csv", options->csv, "write the motion over time into this file")->check(NewFile());
   test->add_option("--svg", options->svg, "draw it into this file")->check(NewFile());

@@ -3,7 +3,8 @@
  * rolls on its wheels. dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000
  * kg, dheading/dt = v tan(steering wheel / 16) / 2.5 by explicit Euler steps. z is the mean of the ground's four
  * heights. Parameters make it fail, hang, crash, or say what is no number. Definitions: its state holds an address that
- * is of no use (ADDRESS_IN_STATE) or is used (POINTER_IN_STATE); a process may have one instance only (ONLY_ONCE). */
+ * is of no use (ADDRESS_IN_STATE) or is used (POINTER_IN_STATE); its solver begins anew with a state
+ * (STATE_WITHOUT_HISTORY); a process may have one instance only (ONLY_ONCE). */
 #include <math.h>
 #include <signal.h>
 #include <stddef.h>
@@ -76,6 +77,7 @@ typedef struct {
 typedef struct {
   Values values;
   const fmi2CallbackFunctions* callbacks;
+  int restarts; /* of the solver, no part of the state */
 } Car;
 
 #define EXPORT __attribute__((visibility("default")))
@@ -205,6 +207,9 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
       step / 1000.0 * (v->real[kPushX] * cos(v->real[kHeading]) + v->real[kPushY] * sin(v->real[kHeading]));
   v->real[kSpeed] = fabs(v->real[kSpeed]) <= brake ? 0.0 : v->real[kSpeed] - copysign(brake, v->real[kSpeed]);
   publish(v);
+#ifdef STATE_WITHOUT_HISTORY
+  v->real[kRoll] += 1e-9 * car->restarts;
+#endif
   if (time >= v->real[kNonsenseAt] - 1e-9) v->real[kY] = NAN;
   return fmi2OK;
 }
@@ -221,6 +226,7 @@ EXPORT fmi2Status fmi2SetFMUstate(void* c, void* state) {
   ((Values*)state)->callbacks = car->callbacks; /* as a careful maker does */
 #endif
   memcpy(&car->values, state, sizeof(Values));
+  ++car->restarts;
 #ifdef POINTER_IN_STATE
   car->callbacks = car->values.callbacks; /* of the process that saved it */
 #endif

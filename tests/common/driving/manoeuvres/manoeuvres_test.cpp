@@ -201,6 +201,26 @@ TEST(Manoeuvres, ADistanceThatWasNotDrivenIsMissingWithItsReason) {
   }
 }
 
+// UN R13-H, annex 6: with anti-lock brakes a driver holds the lane with 120 degrees in the first two seconds and 240 in
+// all. Locked front wheels do not steer: without them the car leaves it, whatever the hands do.
+TEST(Manoeuvres, WithAntiLockBrakesHandsHoldTheLaneOnASplitRoad) {
+  assists::AssistSettings abs;
+  abs.abs = true;
+  for (const auto& kind : {dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody}) {
+    SCOPED_TRACE(kind.name);
+    const Outcome with = Driven(SplitSteered(*dynamics::MakeWith(kind, abs), kStep_s));
+    EXPECT_LT(Value(with, "steering in the first 2 s"), 120.0);
+    EXPECT_LT(Value(with, "largest steering"), 240.0);
+    EXPECT_GE(Value(with, "largest steering"), Value(with, "steering in the first 2 s"));
+    EXPECT_GT(Value(with, "steering in the first 2 s"), 5.0) << "hands that do nothing";
+    EXPECT_LT(Value(with, "largest yaw"), 15.0);
+    EXPECT_LT(std::fabs(Value(with, "drift to the left")), 0.7);
+    EXPECT_GE(Value(with, "distance"), 50.0 / 3.6 * 50.0 / 3.6 / (2.0 * 6.9)) << "more than friction bears";
+    const Outcome without = Driven(SplitSteered(*dynamics::MakeWithoutAssists(kind), kStep_s));
+    EXPECT_GT(Value(without, "largest yaw"), 45.0);
+  }
+}
+
 TEST(Manoeuvres, BrakingKeepsToFriction) {
   BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Braking(car, kStep_s));

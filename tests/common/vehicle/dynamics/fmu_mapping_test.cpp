@@ -109,6 +109,10 @@ TEST(FmuUnits, DefinitionsCountBeforeTheUsualUnits) {
   EXPECT_NEAR(ConversionOf(none, "rev/min", "rad/s")->factor, M_PI / 30.0, 1e-15);
   EXPECT_FALSE(ConversionOf(some, "Hz", "rad/s").has_value()) << "a turn is no radian";
   EXPECT_FALSE(ConversionOf(none, "bar", "N").has_value());
+  some.units["dm"] = {{0, 1}, std::nan(""), 0.0};
+  some.units["cm"] = {{0, 1}, 0.01, std::nan("")};
+  EXPECT_FALSE(ConversionOf(some, "dm", "m").has_value()) << "no number";
+  EXPECT_FALSE(ConversionOf(some, "cm", "m").has_value()) << "no number";
   EXPECT_TRUE(ConversionOf(none, "", "N")->is_identity());
 }
 

@@ -79,7 +79,7 @@ TEST_F(FmuState, AddressesAreCarriedAndNeitherDigestedNorCompared) {
 TEST_F(FmuState, AStateThatDoesNotOutliveItsProcessIsNoState) {
   auto car = Car("pointers");
   EXPECT_FALSE(car->can_save());
-  EXPECT_THAT(NotesOn(*car, file_), ElementsAre(HasSubstr("the state that it saves cannot be set in another process")));
+  EXPECT_THAT(NotesOn(*car, file_), ElementsAre(HasSubstr("the state that it saves is of no use to another process")));
   PlaneGround ground;
   ASSERT_TRUE(car->Initialise({}, ground).ok());
   Drive(*car, 10, 1.0);

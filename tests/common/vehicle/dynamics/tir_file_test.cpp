@@ -62,8 +62,9 @@ TEST(TirFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_EQ(ProblemAfter("LMUX = 1\n", "LMUX = 0.9\n"), "");
   EXPECT_THAT(ProblemAfter("'newton'", "'pound_force'"),
               HasSubstr("t.tir:6: FORCE is given in 'pound_force'; 'newton' was expected"));
-  EXPECT_THAT(ProblemAfter("FITTYP = 52", "FITTYP = 21"),
-              HasSubstr("t.tir:11: FITTYP is 21; 5, 6, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected"));
+  EXPECT_THAT(
+      ProblemAfter("FITTYP = 52", "FITTYP = 22"),
+      HasSubstr("t.tir:11: FITTYP is 22; 5, 6, 21, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY2 = -.1x"), HasSubstr("'PDY2' is '-.1x'; a number was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY2 = nan"), HasSubstr("a number was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY1 = -.1"), HasSubstr("'PDY1' stands in line "));

@@ -140,7 +140,7 @@ TEST(TyreFile, EachFitTypeSaysWhatItIsComputedBy) {
   };
   EXPECT_THAT(of("5").warnings, Contains(HasSubstr("FITTYP 5: computed by the equations of 5.2")));
   EXPECT_THAT(of("51").warnings, Contains(HasSubstr("FITTYP 51: computed by the equations of 5.2")));
-  EXPECT_EQ(of("52").kind, "Magic Formula 5.2");
+  for (const char* type : {"52", "6", "21"}) EXPECT_EQ(of(type).kind, "Magic Formula 5.2") << type;
   EXPECT_THAT(of("52").warnings, Not(Contains(HasSubstr("FITTYP"))));
   EXPECT_THAT(of("62").warnings, Contains(HasSubstr("FITTYP 62: the forces of 6.2 are those of 6.1")));
   const TyreFile old =
@@ -162,6 +162,9 @@ TEST(TyreFile, OtherFilesAreRefusedInASentence) {
   EXPECT_THAT(Refusal(Changed(kPac2002, "'PAC2002'", "'PAC_MC'")),
               HasSubstr("t.tir:6: PROPERTY_FILE_FORMAT = PAC_MC is a "
                         "motorcycle's tyre; a car's tyre"));
+  for (const char* of_motorcycle : {"'MF_MC'", "'MF-MCTYRE'", "'PAC_MC2'"})
+    EXPECT_THAT(Refusal(Changed(kPac2002, "'PAC2002'", std::string(of_motorcycle) + "\nFITTYP = 61")),
+                HasSubstr("motorcycle's tyre"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "USE_MODE = 14", "MC_CONTOUR_A = 0.5")), HasSubstr("t.tir:7: MC_CONTOUR_A"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "'PAC2002'", "'FTIRE'")),
               HasSubstr("t.tir:6: PROPERTY_FILE_FORMAT is 'FTIRE'"));

@@ -99,6 +99,8 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
               HasSubstr("maker's program"));
   EXPECT_THAT(Refusal(folder_.Pack({}, "win64")),
               HasSubstr("no binaries/linux64/car.so; the platforms that it has binaries for: win64"));
+  EXPECT_THAT(Refusal(folder_.Pack({{"modelIdentifier=\"car\"", "modelIdentifier=\"bus\""}})),
+              HasSubstr("no binaries/linux64/bus.so; the platforms that it has binaries for: linux64 (car.so)"));
   EXPECT_THAT(Refusal(folder_.Pack({{"modelIdentifier=\"car\"", "modelIdentifier=\"../car\""}})),
               HasSubstr("'modelIdentifier' is '../car'"));
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()},

@@ -42,7 +42,8 @@ class FmuFolder {
     return base::ReadText(std::filesystem::path(SourceDir()) / "tests/data/fmu/modelDescription.xml").value();
   }
   // `name`: "car"; "crashing" for one that crashes when it is loaded; "addresses" and "pointers" for states with
-  // addresses that are of no use, or used; "once" for one that allows one instance a process.
+  // addresses that are of no use, or used; "forgetful" for states without the solver's history; "once" for one that
+  // allows one instance a process.
   static std::string Binary(const std::string& name) {
     return base::ReadText(std::filesystem::path(RODEIRA_TEST_FMU_FOLDER) / (name + ".so")).value();
   }
