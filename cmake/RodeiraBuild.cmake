@@ -147,6 +147,11 @@ function(rodeira_test name)
   endif()
   # A cache of the build folder's own, which its tests share as the processes of a run do.
   list(APPEND ARG_PROPERTIES ENVIRONMENT_MODIFICATION RODEIRA_CACHE=set:${CMAKE_BINARY_DIR}/cache)
+  # A program with a main function of its own pins the mathematics library (base::PinMathLibrary): with this variable
+  # from the beginning, it need not start itself again.
+  if("${ARG_SOURCES}" MATCHES "(^|[;/])main\\.cpp(;|$)" AND NOT "ENVIRONMENT" IN_LIST ARG_PROPERTIES)
+    list(APPEND ARG_PROPERTIES ENVIRONMENT GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2)
+  endif()
   set(others)
   if(ARG_ALONE)
     list(JOIN ARG_ALONE ":" alone)
