@@ -16,7 +16,7 @@ TrafficData::TrafficData(const TrafficSettings& of, std::shared_ptr<const Traffi
       store(settings),
       seen(store.agents.size(), map->graph.tracks().size()),
       claimed(store.agents.size(), map->zones.zones().size()),
-      step(store.agents.size(), map->graph.tracks().size()) {
+      step(store.agents.size(), map->graph.tracks().size(), settings.reaction_s > 0.0) {
   if (settings.threads > 1) pool = std::make_shared<base::ThreadPool>(settings.threads);
 }
 
@@ -55,8 +55,13 @@ void Simulation::Accelerate(double dt_s) {
     EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { motors_driving.DriveMotors(id, dt_s); });
     return;
   }
-  EachDriving(pool.get(), store.agents,
-              [&](std::uint32_t id) { step.wanted[id] = acceleration.Smoothed(id, acceleration.Wanted(id), dt_s); });
+  if (settings.reaction_s > 0.0) reaction.Perceive();
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  const bool decides = settings.decide_s > 0.0;
+  EachDriving(pool.get(), store.agents, [&](std::uint32_t id) {
+    const double wanted = decides ? decisions.Wanted(id, step_ns) : acceleration.Wanted(id);
+    step.wanted[id] = acceleration.Smoothed(id, wanted, dt_s);
+  });
   if (!store.full) return;
   EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { full_motion.DriveFull(id, step.wanted[id], dt_s); });
 }

@@ -13,6 +13,7 @@
 #include "common/traffic/demand/placing.hpp"
 #include "common/traffic/following/acceleration.hpp"
 #include "common/traffic/following/car_following.hpp"
+#include "common/traffic/following/decisions.hpp"
 #include "common/traffic/following/speed_limits.hpp"
 #include "common/traffic/lane_change/lane_changes.hpp"
 #include "common/traffic/lane_change/lane_ways.hpp"
@@ -31,6 +32,7 @@
 #include "common/traffic/perception/current_tracks.hpp"
 #include "common/traffic/perception/neighbours.hpp"
 #include "common/traffic/perception/observation.hpp"
+#include "common/traffic/perception/reaction.hpp"
 #include "common/traffic/perception/seen.hpp"
 #include "common/traffic/perception/ways.hpp"
 #include "common/traffic/results/details.hpp"
@@ -85,7 +87,9 @@ struct Simulation : TrafficData {
   OncomingLane oncoming;
   OvertakingStart overtaking_start;
   OvertakingDrive overtaking;
+  Reaction reaction;
   Acceleration acceleration;
+  Decisions decisions;
   Passages passages_ahead;
   Merging merging;
   Room room;
@@ -110,6 +114,7 @@ struct Simulation : TrafficData {
  private:
   void SaveRoutes(base::StateWriter& writer) const;
   void RestoreRoutes(base::StateReader& reader);
+  void RestorePast(base::StateReader& reader);
   void Observe(std::span<const driver::Footprint> others);
   void LetPeopleCross(double dt_s);
   void Reserve(double dt_s);

@@ -10,6 +10,7 @@
 
 #include "common/core/base/huge_pages.hpp"
 #include "common/traffic/pedestrians/yielding.hpp"
+#include "common/traffic/perception/sight.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/leaving.hpp"
 #include "common/traffic/state/lists.hpp"
@@ -20,10 +21,11 @@ namespace rodeira::traffic {
 
 // What one phase of a step tells later ones, beside Seen and Claimed. Nothing here is saved.
 struct StepColumns {
-  StepColumns(std::size_t vehicles, std::size_t tracks)
+  StepColumns(std::size_t vehicles, std::size_t tracks, bool late)
       : beside(vehicles),
         passes(vehicles),
         wanted(vehicles),
+        perceived(late ? vehicles : 0),
         hurries(vehicles),
         bars(vehicles, kNoBarrier_m),
         missed_now(vehicles),
@@ -41,6 +43,7 @@ struct StepColumns {
   // By vehicle.
   std::vector<std::uint8_t> beside, passes;  // it may think of another lane, of overtaking
   std::vector<double> wanted;                // acceleration
+  std::vector<Leader> perceived;             // as drivers see them; empty without a reaction time
   std::vector<std::uint8_t> hurries;         // brakes in an emergency
   std::vector<double> bars;                  // odometer at which it waits for people on foot
   std::vector<std::uint32_t> missed_now;

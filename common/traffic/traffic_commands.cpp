@@ -8,6 +8,14 @@
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
+namespace {
+
+// What a driver is told holds in the next step, whenever it would decide.
+void DecideAnew(VehicleStore& store, std::uint32_t id) {
+  if (!store.decided.empty()) store.decided[id] = {};
+}
+
+}  // namespace
 
 void TrafficModel::Brake(std::uint32_t id, double deceleration_mps2) {
   RODEIRA_ASSERT(id < simulation_->store.agents.size() && deceleration_mps2 > 0.0);
@@ -17,6 +25,7 @@ void TrafficModel::Brake(std::uint32_t id, double deceleration_mps2) {
 void TrafficModel::CapSpeed(std::uint32_t id, double speed_mps) {
   RODEIRA_ASSERT(id < simulation_->store.agents.size() && speed_mps > 0.0);
   simulation_->store.agents[id].cap_mps = speed_mps;
+  DecideAnew(simulation_->store, id);
 }
 
 void TrafficModel::HoldSpeed(std::uint32_t id, double speed_mps) {
@@ -30,6 +39,7 @@ void TrafficModel::Release(std::uint32_t id) {
   simulation_->store.agents[id].cap_mps = Agent::kNoCap_mps;
   simulation_->store.agents[id].told_side = 0;
   simulation_->store.agents[id].told_past = false;
+  DecideAnew(simulation_->store, id);
 }
 
 void TrafficModel::CommandOvertake(std::uint32_t id) {

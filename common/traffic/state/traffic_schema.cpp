@@ -67,6 +67,8 @@ config::Schema MakeTrafficSchema() {
       NumberKey("speed_factor_low", {0.2, 2.0}, t.speed_factor_low,
                 "Lowest share of the planned speed; drawn evenly up to the highest."),
       NumberKey("speed_factor_high", {0.2, 2.0}, t.speed_factor_high, "Highest share; not below the lowest."),
+      NumberKey("decide_s", {0.0, 1.0}, t.decide_s, "Time between two decisions of a driver; 0: in every step."),
+      NumberKey("reaction_s", {0.0, 2.0}, t.reaction_s, "So much later a driver sees what its leader does."),
       NumberKey("side_margin_m", {0.0, 2.0}, t.side_margin_m, "Nearer vehicles are in the way."),
       NumberKey("sight_m", {20.0, 2000.0}, t.sight_m, "Sight ahead, and for followers on a lane beside."),
       FollowingKey(t.idm),

@@ -38,6 +38,8 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
                 fmt::format("'speed_factor_high' is {}, below 'speed_factor_low', which is {}", t.speed_factor_high,
                             t.speed_factor_low));
   }
+  t.decide_s = declared.Number("decide_s");
+  t.reaction_s = declared.Number("reaction_s");
   t.side_margin_m = declared.Number("side_margin_m");
   t.sight_m = declared.Number("sight_m");
   const config::DeclaredMap follow = declared.Child("following");

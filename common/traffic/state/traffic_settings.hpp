@@ -54,6 +54,8 @@ struct TrafficSettings {
   double speed_factor_low = 0.85;  // share of the planned speed (limit, bends) that an agent drives
   double speed_factor_high = 1.0;
   double tracking_s = 1.0;     // time in which a deviation from the planned speed is made good
+  double decide_s = 0.0;       // so often a driver decides on its acceleration; 0: in every step
+  double reaction_s = 0.0;     // a driver sees its leader so much later
   double side_margin_m = 0.3;  // what comes nearer to an agent's sides is in its way
   double sight_m = 200.0;
   EnterRule enters = EnterRule::kSafe;

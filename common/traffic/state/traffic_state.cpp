@@ -42,6 +42,8 @@ void Simulation::Save(base::StateWriter& writer) const {
     writer.Put("given", flow.given);
     writer.Put("next_ns", flow.next_ns);
   }
+  for (const Decided& decided : store.decided) writer.Put("decided", decided);
+  for (const PastLeaders& past : store.past) writer.Put("past", past);
   store.light_holds.Save(writer);
   SaveRoutes(writer);
 }
@@ -69,6 +71,18 @@ void Simulation::RestoreRoutes(base::StateReader& reader) {
     if (!route || id >= store.agents.size()) continue;
     store.agents[id].requested =
         std::make_shared<const RequestedRoute>(RequestedRoute{asked.ways, std::move(route).value()});
+  }
+}
+
+void Simulation::RestorePast(base::StateReader& reader) {
+  store.past.clear();
+  while (reader.Has("past")) {
+    reader.Get("past", store.past.emplace_back());
+    PastLeaders& past = store.past.back();
+    past.of.resize(store.agents.size());
+    for (PastLeaders::Of& of : past.of) {
+      if (of.id >= static_cast<std::int64_t>(store.agents.size())) of = {};
+    }
   }
 }
 
@@ -114,6 +128,8 @@ void Simulation::Restore(base::StateReader& reader) {
     reader.Get("given", flow.given);
     reader.Get("next_ns", flow.next_ns);
   }
+  for (Decided& decided : store.decided) reader.Get("decided", decided);
+  RestorePast(reader);
   store.light_holds.Restore(reader, map->network->controllers());
   RestoreRoutes(reader);
   for (Agent& agent : store.agents) {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
+#include "common/traffic/following/decided.hpp"
 #include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/pedestrians/yielding.hpp"
+#include "common/traffic/perception/reaction.hpp"
 #include "common/traffic/signals/light_holds.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/flow_count.hpp"
@@ -23,6 +26,8 @@ struct VehicleStore {
 
   std::vector<AgentTraits> traits;
   std::vector<Agent> agents;
+  std::vector<Decided> decided;      // empty where drivers decide in every step
+  std::deque<PastLeaders> past;      // the oldest first; empty without a reaction time
   std::vector<Yielding> yielding;    // empty without people
   std::vector<MotorsDriver> motors;  // empty where other drivers drive
   std::optional<FullCars> full;      // none: planar

@@ -21,6 +21,8 @@ const std::map<std::string, std::function<double(const TrafficSettings&)>> kNumb
     {"variety", [](const TrafficSettings& t) { return t.variety; }},
     {"speed_factor_low", [](const TrafficSettings& t) { return t.speed_factor_low; }},
     {"speed_factor_high", [](const TrafficSettings& t) { return t.speed_factor_high; }},
+    {"decide_s", [](const TrafficSettings& t) { return t.decide_s; }},
+    {"reaction_s", [](const TrafficSettings& t) { return t.reaction_s; }},
     {"side_margin_m", [](const TrafficSettings& t) { return t.side_margin_m; }},
     {"sight_m", [](const TrafficSettings& t) { return t.sight_m; }},
     {"following.time_gap_s", [](const TrafficSettings& t) { return t.idm.time_gap_s; }},
