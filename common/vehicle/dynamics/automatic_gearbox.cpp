@@ -14,6 +14,7 @@ constexpr double kLoadSmoothing_s = 0.4;
 constexpr double kTouched = 0.05;      // less throttle than this is coasting
 constexpr double kAnotherPedal = 0.1;  // a pedal that is held differs by less
 constexpr double kKeeps = 0.9;         // of the load: a gear that gives as much nearly keeps the speed
+constexpr double kSlowed = 0.9;        // by a change of gear on a steep slope
 constexpr double kDeadPedal = 0.02;
 // Torque of the clutch below the bite, of the engine's full load there: by the pedal, at most, and none towards a
 // stall.
@@ -64,7 +65,7 @@ bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const Gearb
   if (load > most) return false;
   if (input.throttle > kTouched &&
       WheelTorque(gearbox, engine, gear_, input.wheel_radps, input.throttle) > kKeeps * load_Nm_ &&
-      WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle) < load)
+      WheelTorque(gearbox, engine, next, kSlowed * input.wheel_radps, input.throttle) < load_Nm_)
     return false;
   if (next == weak_gear_ && load > WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle)) return false;
   const double pedal = std::clamp((load - least) / (most - least), pedal_, 1.0);

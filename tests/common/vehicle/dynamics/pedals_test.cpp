@@ -112,7 +112,8 @@ TEST(PedalsOnAHill, AHeldPedalEntersNoGearTwice) {
       if (car->state().gear != gears.back()) gears.push_back(car->state().gear);
     }
     EXPECT_TRUE(std::ranges::is_sorted(gears)) << hill.model.name << " at " << hill.slope;
-    EXPECT_GT(car->state().speed_mps(), 5.0);
+    // Third gear brings the prototype to 26 m/s, where second ends at 23.6.
+    EXPECT_GT(car->state().speed_mps(), hill.model.name == kMultibody.name ? 25.0 : 5.0);
   }
 }
 
