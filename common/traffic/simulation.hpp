@@ -70,6 +70,7 @@ struct Simulation : TrafficData {
   Simulation(const Simulation& other) : Simulation(TrafficData(other)) {}
   Simulation& operator=(const Simulation&) = delete;
 
+  // A step longer than a quarter of a second is driven in equal parts that are not: longer ones brake too late.
   void Step(double dt_s, std::span<const driver::Footprint> others);
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -114,6 +115,7 @@ struct Simulation : TrafficData {
   void SaveRoutes(base::StateWriter& writer) const;
   void RestoreRoutes(base::StateReader& reader);
   void RestorePast(base::StateReader& reader);
+  void StepPart(double dt_s, std::span<const driver::Footprint> others);
   void Observe(std::span<const driver::Footprint> others);
   void LetPeopleCross(double dt_s);
   void Reserve(double dt_s);
