@@ -9,6 +9,11 @@
 #include "common/traffic/perception/each_driving.hpp"
 
 namespace rodeira::traffic {
+namespace {
+
+constexpr double kLongestPart_s = 0.25;
+
+}  // namespace
 
 TrafficData::TrafficData(const TrafficSettings& of, std::shared_ptr<const TrafficMap> on)
     : settings(of),
@@ -68,7 +73,6 @@ void Simulation::Accelerate(double dt_s) {
 
 // At the end of its last lane a vehicle leaves, as does one that is to be removed; vehicles that have been hit slide.
 void Simulation::LeaveOrSlide(double dt_s) {
-  step.leavers.clear();
   for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
     store.missed += step.missed_now[id];
     if (step.ends[id]) entering.Leave(id);
@@ -109,6 +113,14 @@ void Simulation::Show(std::int64_t step_ns) {
 
 void Simulation::Step(double dt_s, std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(dt_s > 0.0);
+  step.leavers.clear();
+  const double parts = std::ceil(dt_s / kLongestPart_s);
+  if (parts <= 1.0) return StepPart(dt_s, others);
+  for (double part = 0.0; part < parts; part += 1.0) StepPart(dt_s / parts, others);
+  std::ranges::sort(step.leavers, {}, &Leaver::id);
+}
+
+void Simulation::StepPart(double dt_s, std::span<const driver::Footprint> others) {
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   Observe(others);
   LetPeopleCross(dt_s);

@@ -70,7 +70,8 @@ struct Simulation : TrafficData {
   Simulation(const Simulation& other) : Simulation(TrafficData(other)) {}
   Simulation& operator=(const Simulation&) = delete;
 
-  // One step of dt_s, over 0. `others`: vehicles and people that are no agents.
+  // One step of dt_s, over 0; one longer than a quarter of a second is driven in equal parts that are not: longer ones
+  // brake too late. `others`: vehicles and people that are no agents.
   void Step(double dt_s, std::span<const driver::Footprint> others);
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -115,6 +116,7 @@ struct Simulation : TrafficData {
   void SaveRoutes(base::StateWriter& writer) const;
   void RestoreRoutes(base::StateReader& reader);
   void RestorePast(base::StateReader& reader);
+  void StepPart(double dt_s, std::span<const driver::Footprint> others);
   void Observe(std::span<const driver::Footprint> others);
   void LetPeopleCross(double dt_s);
   void Reserve(double dt_s);
