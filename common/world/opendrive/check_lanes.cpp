@@ -295,9 +295,7 @@ void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, co
     }
   }
   checker.JunctionLanes();
-  if (tolerance.repair || !tolerance.strict) {
-    for (const LaneKey& key : network.Lanes()) checker.DeadEnd(key);
-  }
+  for (const LaneKey& key : network.Lanes()) checker.DeadEnd(key);
 }
 
 }  // namespace rodeira::opendrive

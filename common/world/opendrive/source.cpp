@@ -39,6 +39,10 @@ std::optional<double> NumberOf(std::string_view text, double most) {
   return value;
 }
 
+bool Same(const geometry::Cubic& x, const geometry::Cubic& y) {
+  return x.a == y.a && x.b == y.b && x.c == y.c && x.d == y.d;
+}
+
 // The number that a text with a slip begins with: with a decimal comma, an exponent without its letter ("1.5+3"), or
 // something behind it ("3.5m"). Empty: it begins with none.
 std::string MeantNumber(std::string_view text) {
@@ -279,6 +283,18 @@ std::vector<Node> Node::Children(const char* element) const {
   return children;
 }
 
+namespace {
+
+void WarnOfTwo(const Node& record, std::string_view rule, const char* from, double s_m) {
+  Source& source = record.source();
+  source.warnings.push_back({std::string(rule),
+                             fmt::format("another <{}> with other numbers has the {} {:.6g}, too: the later one counts",
+                                         record.name(), from, record.xml().attribute(from).as_double()),
+                             record.line(), source.where.road, source.where.lane, s_m});
+}
+
+}  // namespace
+
 geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin,
                                 std::string_view rule) {
   std::vector<geometry::Cubic> cubics;
@@ -287,22 +303,28 @@ geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* fr
     cubics.push_back(record.Cubic(from, origin));
     if (cubics.size() > 1 && cubics.back().from < cubics[cubics.size() - 2].from && !behind) behind = cubics.size() - 1;
   }
+  std::vector<std::size_t> order(cubics.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cubics[a].from < cubics[b].from; });
   if (behind) {
     const Node& record = records[*behind];
     Within within(record.source());
     record.source().where.s_m = cubics[*behind].from;
-    std::vector<std::size_t> order(cubics.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return cubics[a].from < cubics[b].from; });
     record.Wrong(rule,
                  fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
                              record.name(), from, record.Number(from), from),
                  {RepairKind::kSorted, fmt::format("they are read in the order of {}", from), Reorder(records, order)});
   }
-  std::stable_sort(cubics.begin(), cubics.end(),
-                   [](const geometry::Cubic& a, const geometry::Cubic& b) { return a.from < b.from; });
-  return geometry::CubicTable(std::move(cubics));
+  std::vector<geometry::Cubic> table;  // of those at one place the last
+  for (const std::size_t i : order) {
+    if (!table.empty() && table.back().from == cubics[i].from) {
+      if (!Same(table.back(), cubics[i])) WarnOfTwo(records[i], rule, from, cubics[i].from);
+      table.pop_back();
+    }
+    table.push_back(cubics[i]);
+  }
+  return geometry::CubicTable(std::move(table));
 }
 
 }  // namespace rodeira::opendrive

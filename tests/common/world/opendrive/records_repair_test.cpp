@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tests/common/world/opendrive/sample.hpp"
 
@@ -74,6 +75,26 @@ TEST_P(RecordsRepair, AreSortedInEveryOrder) {
 
 INSTANTIATE_TEST_SUITE_P(OfEachKind, RecordsRepair, testing::ValuesIn(kRecords),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+// Two with other numbers at one place: the later one counts, which is told, and nothing jumps there.
+TEST_P(RecordsRepair, OfTwoAtOnePlaceTheLaterCounts) {
+  const std::set<std::string> cubics = {"elevation", "superelevation", "crossfall", "lane_offset", "width"};
+  if (!cubics.contains(GetParam().name)) return;
+  for (const Tolerance& tolerance : {Tolerance::Usual(), Tolerance::Strict()}) {
+    const Import two = MustImport(FileOf(GetParam(), {{"0", "0.001"}, {"50", "2.5"}, {"50", "0.001"}}), tolerance);
+    EXPECT_TRUE(two.repaired_text.empty());
+    const std::vector<Finding> told = OneEachKind(two.warnings);
+    EXPECT_EQ(std::count_if(told.begin(), told.end(),
+                            [](const Finding& one) { return one.rule.ends_with("elem_asc_order"); }),
+              1);
+    EXPECT_TRUE(
+        std::none_of(told.begin(), told.end(), [](const Finding& one) { return one.rule.ends_with("contact_point"); }));
+    // The very same one twice is not worth a word.
+    const Import same = MustImport(FileOf(GetParam(), {{"0", "0.001"}, {"50", "0.001"}, {"50", "0.001"}}), tolerance);
+    EXPECT_TRUE(std::none_of(same.warnings.begin(), same.warnings.end(),
+                             [](const Finding& one) { return one.rule.ends_with("elem_asc_order"); }));
+  }
+}
 
 // 1e-8 m apart and in the wrong order, as other programs' rounding leaves them.
 TEST(RecordsNearlyAtOnePlace, AreSorted) {

@@ -300,6 +300,15 @@ TEST(Repair, AMissingLinkInAJunctionIsFoundByGeometry) {
   EXPECT_TRUE(Read(import.repaired_text, "r.xodr", Tolerance::Strict()).value().errors.empty());
 }
 
+// Read strictly it is told as well, and nothing is done about it.
+TEST(Repair, AMissingLinkInAJunctionIsToldByStrict) {
+  const Import import = MustImport(Junction("", 0.0, 0.0), Tolerance::Strict());
+  std::vector<std::string> told;
+  for (const Finding& finding : import.warnings) told.push_back(finding.rule);
+  EXPECT_THAT(told, testing::Contains(kDeadEndRule));
+  EXPECT_TRUE(import.network->AtEnd({2, 0, -1}).empty());
+}
+
 // Where it leads beside every lane the lane is told, and keeps ending there.
 TEST(Repair, ALaneThatEndsInAJunctionIsTold) {
   const Import import = MustImport(Junction("", 0.0, 0.1));
