@@ -50,6 +50,7 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool v
     check.table.clear();
     check.network = nullptr;
   } else {
+    for (const std::string& passed_over : detail.value().warnings()) check.warnings.push_back(passed_over);
     for (const std::string& wall : detail.value().Walls(*import.value().network))
       check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
   }

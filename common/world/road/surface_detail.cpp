@@ -149,6 +149,10 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
         if (!loaded)
           return placed(loaded.error().In(fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
         file = loaded.value().surface;
+        const std::vector<std::string>& said = loaded.value().warnings;
+        if (!said.empty())
+          detail.warnings_.push_back(fmt::format("{}: {}{}", path, said.front(),
+                                                 said.size() > 1 ? fmt::format(" ({} warnings)", said.size()) : ""));
       }
       auto stretch = Place(network.roads()[i], crg, file);
       if (!stretch) return placed(stretch.error());

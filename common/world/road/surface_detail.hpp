@@ -63,6 +63,8 @@ class SurfaceDetail {
   // more above or below it in the mean of the lanes that are driven on: there is a wall, climbed within the metre over
   // which it passes into nothing. It names the offset that would lay it on the road.
   std::vector<std::string> Walls(const network::Network& network) const;
+  // What was passed over in the measured surfaces' files: a sentence for each file, with the first place.
+  std::span<const std::string> warnings() const { return warnings_; }
   // A patch at (s, t) takes the place of the ground.
   void Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const;
 
@@ -94,6 +96,7 @@ class SurfaceDetail {
   void FindWays(const network::Network& network);
   static Measured Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample);
 
+  std::vector<std::string> warnings_;
   std::vector<std::vector<Stretch>> roads_;  // by road; empty: there is none at all
   struct Ways {
     std::optional<RoadEdges> in, out;  // the edges of the way that comes to its beginning, and of the one from its end

@@ -342,6 +342,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
       reading.problems.push_back(detail.error().In(file.path().string()));
       return reading;
     }
+    for (const std::string& passed_over : detail.value().warnings()) reading.warnings.push_back(passed_over);
     for (const std::string& wall : detail.value().Walls(*design.network))
       reading.warnings.push_back(fmt::format("{}: {}", file.path().string(), wall));
     keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());

@@ -18,6 +18,7 @@
 #include "common/world/road/plot_labels.hpp"
 #include "common/world/road/world_plot.hpp"
 #include "common/world/road/world_profile.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/world/road/sample_world.hpp"
 #include "tests/common/world/surface/made_crg.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
@@ -353,6 +354,32 @@ TEST_F(WorldReport, AMeasuredSurfaceThatIsAWallIsTold) {
           HasSubstr(
               "ends at s = 60.0 m of road 'a' 2.14 m above the road, a wall within 1 m; a z offset of -2.139 m")));
   EXPECT_THAT(warnings(", z_offset_m: -2.12"), ::testing::IsEmpty());
+}
+
+// A slip in a measured surface's numbers, and a key that is not known: told once, with line and column, for a world
+// file and for an OpenDRIVE file.
+TEST_F(WorldReport, SlipsInAMeasuredSurfaceAreTold) {
+  surface::MadeCrg crg;
+  crg.rows = 81;
+  crg.sections = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 2.000000000+e00\nBORDER_MOOD_V = 2\n$\n";
+  ASSERT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg.Text())).ok());
+  const std::string made = (folder_ / "made.crg").string(), head = crg.Head();
+  const auto line =
+      std::count(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(head.find("BORDER_MODE_U")), '\n') + 1;
+  const auto is_told = ::testing::ElementsAre(
+      ::testing::AllOf(::testing::StartsWith(fmt::format("{}: line {}: column 28: ", made, line)),
+                       ::testing::EndsWith(" (2 warnings)")));
+  ASSERT_TRUE(base::WriteWhole(folder_ / "c.yaml",
+                               std::string_view("rodeira: world/2\nname: c\nground: {kind: plane}\nroads:\n  - {id: a, "
+                                                "axis: [line: {length_m: 100}], z_m: 0, section: {lanes: [{id: -1, "
+                                                "width_m: 1.5}]}, surfaces: [{crg: made.crg, from_s_m: 20, to_s_m: "
+                                                "60}]}\n"))
+                  .ok());
+  EXPECT_THAT(WorldWarnings(folder_ / "c.yaml"), is_told);
+  opendrive::RoadText road;
+  road.more = R"(<surface><CRG file="made.crg" sStart="20" sEnd="60" mode="attached" purpose="elevation"/></surface>)";
+  ASSERT_TRUE(base::WriteWhole(folder_ / "c.xodr", std::string_view(opendrive::Document(road.Text()))).ok());
+  EXPECT_THAT(WorldWarnings(folder_ / "c.xodr"), is_told);
 }
 
 }  // namespace
