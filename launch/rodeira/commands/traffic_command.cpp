@@ -34,7 +34,9 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr double kCell_m = 1.0;  // of the statistics of lanes
+constexpr double kCell_m = 1.0;         // of the statistics of lanes
+constexpr double kRowsEvery_s = 0.5;    // where it is not said
+constexpr double kLongestFull_s = 0.1;  // step with full physics
 
 // As the file of settings says; without flows there those of a traffic map's companion.
 base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
@@ -69,6 +71,15 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   }
   if (options.vehicles) settings.vehicles = *options.vehicles;
   return settings;
+}
+
+// A steering wheel that is held for longer leads off the road.
+base::Status CheckStep(const TrafficOptions& options, const traffic::TrafficSettings& settings) {
+  if (settings.physics == traffic::Physics::kPlanar || options.step_s <= kLongestFull_s) return {};
+  return base::WrongInput(
+      "command.wrong_value",
+      fmt::format("{} s were given with full physics; at most {} s were expected", options.step_s, kLongestFull_s),
+      "--step");
 }
 
 // How long a study took: in all, and from the first step to the last.
@@ -112,7 +123,7 @@ void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, co
     fmt::print("collisions       {}\n", r.collisions);
     fmt::print("red lights       passed {} times\n", r.reds);
     fmt::print("beside its lane  {} times, a wheel off the road {} times, checked every {} s\n", r.off_lane,
-               r.wheels_off, std::max(std::min(0.1, options.rows_every_s), options.step_s));
+               r.wheels_off, std::max(std::min(0.1, RowsEvery_s(options)), options.step_s));
   } else {
     fmt::print("checks           off: overlaps, red lights and lanes were not checked\n");
   }
@@ -138,6 +149,10 @@ void PrintFlows(const FlowsSeen& seen) {
 
 }  // namespace
 
+double RowsEvery_s(const TrafficOptions& options) {
+  return options.rows_every_s.value_or(std::max(kRowsEvery_s, options.step_s));
+}
+
 int TrafficRun(const TrafficOptions& given) {
   auto map = ResolveInputFile(InputKind::kWorld, given.map);
   if (!map) return base::PrintError("rodeira", map.error());
@@ -153,9 +168,10 @@ int TrafficRun(const TrafficOptions& given) {
   if (!how) return base::PrintError("rodeira", how.error());
   traffic::StudySettings settings;
   settings.traffic = std::move(how).value();
+  if (const auto fits = CheckStep(options, settings.traffic); !fits) return base::PrintError("rodeira", fits.error());
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
-  settings.watch_s = std::max(std::min(0.1, options.rows_every_s), options.step_s);
+  settings.watch_s = std::max(std::min(0.1, RowsEvery_s(options)), options.step_s);
   settings.checks = !options.no_check;
   auto opened = TrafficFiles::Open(options, *network);
   if (!opened) return base::PrintError("rodeira", opened.error());

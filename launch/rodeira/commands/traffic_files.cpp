@@ -74,10 +74,10 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
         "command.wrong_value",
         fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s),
         "--every");
-  if (options.rows_every_s < options.step_s)
+  if (RowsEvery_s(options) < options.step_s)
     return base::WrongInput(
         "command.wrong_value",
-        fmt::format("{} s were given; at least the step of {} s was expected", options.rows_every_s, options.step_s),
+        fmt::format("{} s were given; at least the step of {} s was expected", RowsEvery_s(options), options.step_s),
         "--rows-every");
   if (!options.heat.empty() && !EndsOn(options.heat, ".svg") && !EndsOn(options.heat, ".tif"))
     return base::WrongInput("command.wrong_value",
@@ -155,7 +155,7 @@ void TrafficFiles::Write(const traffic::StudyMoment& moment) {
   if (tripinfo_.is_open() && moment.time_s > options_.warm_s - 1e-9)
     tripinfo_ << trip_infos_.At(moment.time_s, moment.model);
   if (moment.time_s < next_s_ - 1e-9) return;
-  next_s_ += options_.rows_every_s;
+  next_s_ += RowsEvery_s(options_);
   if (trajectories_.is_open()) WriteTrajectories(moment);
   if (fcd_.is_open()) fcd_ << traffic::FloatingCarsAt(moment.time_s, moment.model);
   if (diagram_) diagram_->Add(moment.time_s, moment.model);

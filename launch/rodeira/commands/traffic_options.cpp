@@ -19,7 +19,8 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
   run->add_option("--vehicles", options->vehicles, "how many there are; where there are flows, at most at a time")
       ->check(Between(0, 100000));
   run->add_option("--for", options->duration_s, "simulated seconds")->check(PositiveSeconds());
-  run->add_option("--step", options->step_s, "seconds a step, to 0.1")->check(Between(0.001, 0.1));
+  run->add_option("--step", options->step_s, "seconds a step, to 1; with full physics to 0.1")
+      ->check(Between(0.001, 1.0));
   run->add_option("--seed", options->seed, "random seed")->check(WholeNumber());
   run->add_option("--driver", options->driver,
                   "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")
@@ -33,9 +34,8 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
                   "folder for trajectories.csv, signals.csv, lanes.csv, queues.csv, flows.csv, trips.csv")
       ->check(NewFolder());
   run->add_option("--rows-every", options->rows_every_s,
-                  "seconds a row of trajectories.csv, of floating car data and of the diagram")
-      ->check(PositiveSeconds())
-      ->capture_default_str();
+                  "seconds a row of trajectories.csv, of floating car data and of the diagram; 0.5, or a longer step")
+      ->check(PositiveSeconds());
   run->add_option("--every", options->every_s,
                   "seconds a row of intervals.csv, in that folder: flow, speed, queue of every lane over time")
       ->check(PositiveSeconds());

@@ -20,7 +20,9 @@ using testing::HasSubstr;
 TEST_F(TrafficFilesTest, WrongWishesForTimesAreRefused) {
   options_.warm_s = 90.0;
   EXPECT_THAT(Asked(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
-  options_.warm_s = 0.0, options_.every_s = 10.0;
+  options_.warm_s = 0.0, options_.physics = "full", options_.step_s = 0.2;
+  EXPECT_THAT(Asked(options_).errors, HasSubstr("--step: 0.2 s were given with full physics; at most 0.1 s"));
+  options_.physics.clear(), options_.step_s = 0.05, options_.every_s = 10.0;
   EXPECT_THAT(Asked(options_).errors,
               HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
   options_.every_s = 0.0, options_.fcd = In("cars.csv");
