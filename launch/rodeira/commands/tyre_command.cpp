@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/log.hpp"
@@ -168,10 +169,14 @@ void PrintTable(const TyreSettings& tyre, const dynamics::TyreFile& file, const 
   }
 }
 
-// Forces at random slips, cambers, loads and pressures, the same ones each time: to be compared with another program's.
-plot::Table PointTable(TyreSettings tyre, double nominal_N) {
+// Forces and the aligning moment at random slips, cambers, loads and pressures, the same ones each time: to be compared
+// with another program's. The moment is not a number where the file has none.
+plot::Table PointTable(TyreSettings tyre, const dynamics::TyreFile& file) {
+  const double nominal_N = file.nominal_N;
   constexpr std::uint32_t kTablePoints = 1000, kSeed = 1;
-  plot::Table table{{"kappa", "tan_alpha", "camber_rad", "load_N", "pressure_Pa", "longitudinal_N", "lateral_N"}, {}};
+  plot::Table table{{"kappa", "tan_alpha", "camber_rad", "load_N", "pressure_Pa", "longitudinal_N", "lateral_N",
+                     "aligning_Nm"},
+                    {}};
   const bool is_formula = tyre.model == nullptr;
   const double highest_N = is_formula ? std::min(1.6 * nominal_N, tyre.formula.fzmax) : 1.6 * nominal_N;
   for (std::uint32_t i = 0; i < kTablePoints; ++i) {
@@ -182,8 +187,11 @@ plot::Table PointTable(TyreSettings tyre, double nominal_N) {
     const double load_N = draw(3, 0.3 * nominal_N, std::max(0.31 * nominal_N, highest_N));
     if (is_formula) tyre.formula.inflpres = tyre.formula.nompres * draw(4, 0.8, 1.25);
     const TyreForces forces = SteadyForces(tyre, slip, load_N, 1.0);
-    for (const double value : {slip.kappa, slip.tan_alpha, slip.camber_rad, load_N,
-                               is_formula ? tyre.formula.inflpres : 0.0, forces.longitudinal_N, forces.lateral_N})
+    const double aligning_Nm = file.aligning ? dynamics::AligningMoment(tyre.formula, *file.aligning, slip, load_N, 1.0)
+                                             : std::numeric_limits<double>::quiet_NaN();
+    for (const double value :
+         {slip.kappa, slip.tan_alpha, slip.camber_rad, load_N, is_formula ? tyre.formula.inflpres : 0.0,
+          forces.longitudinal_N, forces.lateral_N, aligning_Nm})
       table.values.push_back(value);
   }
   return table;
@@ -205,7 +213,7 @@ int Tyre(const VehicleOptions& options) {
   const std::string name = std::filesystem::path(options.file).filename().string();
   if (!options.quiet) PrintTable(tyre, read, name);
   if (!options.csv.empty()) {
-    if (const auto status = base::WriteWhole(options.csv, plot::ToCsv(PointTable(tyre, read.nominal_N))); !status)
+    if (const auto status = base::WriteWhole(options.csv, plot::ToCsv(PointTable(tyre, read))); !status)
       return base::PrintError("rodeira", status.error());
     if (!options.quiet) fmt::print("wrote {}\n", options.csv);
   }

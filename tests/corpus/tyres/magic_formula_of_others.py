@@ -8,8 +8,10 @@ import math
 import re
 import subprocess
 
-PARTS = ("src/solver/Fx0.jl", "src/solver/Fy0.jl", "src/solver/combined_slip.jl")
-FUNCTIONS = ("calc_Fx0", "calc_Fy0", "calc_Fx", "calc_Fy")
+PARTS = ("src/solver/Fx0.jl", "src/solver/Fy0.jl", "src/solver/combined_slip.jl", "src/solver/Mz.jl")
+FUNCTIONS = ("calc_Fx0", "calc_Fy0", "calc_Fx", "calc_Fy", "calc_Mz0", "calc_Mz")
+# What calls other functions of it, or packs values for them, is done by Model.
+CALLS = re.compile(r"(Fy0_g0, |_, Gyk_g0|ip_nots = |ints = |Mz = if fittyp)")
 OLD, NEW = (6, 21), (61, 62)  # FITTYP that it knows
 
 
@@ -50,7 +52,8 @@ def expression(text):
 
 
 def to_python(text, name):
-    out, depth = [f"def {name}(p, pp, ip, modes, sv, pv, iv, Fx0=0.0, Fy0=0.0, muy=0.0, fittyp=61, is_mf52=False):"], 1
+    out, depth = [f"def {name}(p, pp, ip, modes, sv, pv, iv, Fx0=0.0, Fy0=0.0, muy=0.0, fittyp=61, is_mf52=False, "
+                  "fi=None, mz0i=None, Kxk=0.0, Fx=0.0, Fy=0.0, SVyk=0.0, Fy0_g0=0.0, Gyk_g0=0.0):"], 1
     skip = 0
     target = []
     for statement in joined(body(text, name)):
@@ -63,6 +66,8 @@ def to_python(text, name):
                 skip = 1
             elif re.match(r"if modes\.use_alpha_star && Vcx < 0\.0|if Vcx < 0\.0", piece):
                 skip = 1
+            elif CALLS.match(piece):
+                skip = int(" = if " in piece)
             elif (m := re.match(r"(\w+) = if is_mf52$", piece)):
                 target.append(m.group(1))
                 out.append(pad + "if is_mf52:")
@@ -110,8 +115,9 @@ class Model:
         camber_of_52 = self.is_mf52
         nominal = p.values.get("nompres", 0.0)
         iv = Values({"dfz": (load - fz0) / fz0, "dpi": (pressure - nominal) / nominal if nominal else 0.0})
-        modes = Values({"use_turn_slip": False, "use_alpha_star": False})
-        pv = Values({"Fz0_prime": fz0, "LMUX_prime": p.lmux, "LMUY_prime": p.lmuy})
+        modes = Values({}, lambda name: False)
+        alpha = math.atan(tan_alpha)
+        pv = Values({"Fz0_prime": fz0, "LMUX_prime": p.lmux, "LMUY_prime": p.lmuy, "alpha_prime": alpha})
         ip = Values({"reductionSmooth": 1.0, "zeta2": 1.0}, lambda name: 1e-9)
 
         def run(name, gamma, **more):
@@ -123,15 +129,22 @@ class Model:
         across = run("calc_Fy0", camber * (p.lgay if camber_of_52 else 1.0))
         fx = run("calc_Fx", camber, Fx0=along["Fx0"])["Gxa"] * along["Fx0"]
         combined = run("calc_Fy", camber, Fy0=across["Fy0"], muy=across["muy"])
-        return fx, combined["Fy"]
+        upright = run("calc_Fy0", 0.0)
+        weight = run("calc_Fy", camber, Fy0=upright["Fy0"], muy=upright["muy"])["Gyk"]
+        tilt = camber * (p.lgaz if camber_of_52 else 1.0)
+        pure = run("calc_Mz0", tilt, fi=Values(across), Fy0_g0=upright["Fy0"])
+        moment = run("calc_Mz", tilt, mz0i=Values(pure), Kxk=along["Kxk"], Fx=fx, Fy=combined["Fy"],
+                     SVyk=combined["SVyk"], Fy0_g0=upright["Fy0"], Gyk_g0=weight)
+        side = combined["Fy"] - combined["SVyk"] if self.is_mf52 else moment["Fy_prime"]
+        return fx, combined["Fy"], -moment["t"] * side + moment["Mzr"] + moment["s"] * fx
 
 
 class Solver:
     def __init__(self, bare, revision):
         text = "".join(subprocess.run(["git", "-C", str(bare), "show", f"{revision}:{part}"], check=True,
                                       capture_output=True, text=True).stdout + "\n" for part in PARTS)
-        names = {name: getattr(math, name) for name in ("sin", "cos", "atan", "exp", "fabs")}
-        self.functions = dict(names, min=min, max=max)
+        names = {name: getattr(math, name) for name in ("sin", "cos", "tan", "atan", "exp", "fabs", "sqrt")}
+        self.functions = {**names, "min": min, "max": max, "\u03c0": math.pi}
         for name in FUNCTIONS:
             exec(to_python(text, name), self.functions)  # arithmetic of the repository, see above
 
