@@ -106,7 +106,7 @@ class IdlJoiner {
     ForEachLine(text, [&](std::string_view line, std::size_t number) {
       const auto directive = Directive(line);
       if (directive) {
-        status = Obey(path, number, *directive);
+        status = Follow(path, number, *directive);
       } else {
         source_.text_.append(line).push_back('\n');
         source_.lines_.push_back({file, number});
@@ -115,7 +115,7 @@ class IdlJoiner {
     });
     return status;
   }
-  base::Status Obey(const fs::path& path, std::size_t number, std::string_view directive) {
+  base::Status Follow(const fs::path& path, std::size_t number, std::string_view directive) {
     const std::string place = fmt::format("{}:{}", path.string(), number);
     const auto included = IncludedFile(directive);
     if (!included) {

@@ -23,7 +23,7 @@ constexpr const char* kCompanion = "companion.yaml";
 constexpr const char* kOf = "of";  // the file that it belongs to
 constexpr const char* kLock = "lock";
 
-// The open lock, or -1 where a living process holds it.
+// The open lock, or -1 where a running process holds it.
 int Lock(const fs::path& folder) {
   const int file = ::open((folder / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) return -1;

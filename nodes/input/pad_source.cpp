@@ -30,7 +30,7 @@ class PadSource final : public Source {
   }
 
   input_devices::Signals signals() const override { return driver_.signals(); }
-  bool runs_inline() const override { return false; }  // SDL wants one thread
+  bool runs_inline() const override { return false; }  // SDL must be called by one thread
   void Save(base::StateWriter& out) const override { out.Put("pad", driver_); }
   void Restore(base::StateReader& in) override { in.Get("pad", driver_); }
   void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {

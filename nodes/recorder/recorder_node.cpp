@@ -57,7 +57,7 @@ class RecorderNode final : public lockstep::Node {
     settings.chunk_span_ns = kChunkSpanNs;
     tell_safe_ = context.RecordedStepReporter();
     if (context.is_restarted() && std::filesystem::exists(file_)) {
-      const auto gone_on = GoOn(context, settings);
+      const auto gone_on = ContinueFile(context, settings);
       if (!gone_on) return gone_on.error();
       if (gone_on.value()) {
         has_samples_ = true;
@@ -87,7 +87,7 @@ class RecorderNode final : public lockstep::Node {
 
   // Called while the writer is being opened: the samples of the file's end, which others may ask for. False where the
   // file holds none yet.
-  base::Result<bool> GoOn(launch::NodeContext& context, const record::WriterSettings& settings) {
+  base::Result<bool> ContinueFile(launch::NodeContext& context, const record::WriterSettings& settings) {
     const auto take = [&](const record::Channel& channel, const record::Message& message) -> base::Status {
       const auto number = channel.metadata.find("source_number");
       if (number == channel.metadata.end()) {

@@ -106,7 +106,7 @@ class Gate {
   bool done_ = false;
 };
 
-// The car that an event names is one that hears of it.
+// The car that an event names is one that receives the events of this node.
 base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::string>& vehicles) {
   std::string vehicle;
   const auto read = [&](const auto& parsed) -> base::Status {

@@ -151,7 +151,7 @@ class TrafficNode final : public lockstep::Node {
     }
     if (inbox.Has(topics::kScenarioEvents)) {
       for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
-        if (auto status = Obey(sample); !status) return status;
+        if (auto status = ApplyScenarioEvents(sample); !status) return status;
       }
     }
     requests_.BeginStep();
@@ -195,7 +195,7 @@ class TrafficNode final : public lockstep::Node {
     }
     return {};
   }
-  base::Status Obey(const lockstep::Sample& sample) {
+  base::Status ApplyScenarioEvents(const lockstep::Sample& sample) {
     const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);
     if (!events) return events.error();
     for (const msg::ScenarioEvent& event : events.value().events()) {
@@ -243,7 +243,7 @@ class TrafficNode final : public lockstep::Node {
     const auto status = model_.SpawnPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
     return status ? status : status.error().WithContext(where);
   }
-  // Those that an event speaks to, at once or when they come to a place.
+  // The agents that an event addresses, at once or when they reach a place.
   base::Status Tell(const std::string& argument, traffic::OrderKind kind, double value, const std::string& where) {
     const auto choice = scenario::ParseAgent(argument);
     if (!choice) return choice.error().WithContext(where);

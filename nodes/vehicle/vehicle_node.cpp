@@ -55,7 +55,7 @@ class VehicleNode final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     const auto controls = idl::Decode<msg::Controls>(*inbox.Latest(topics::kControls).payload);
     if (!controls) return controls.error();
-    if (auto status = Obey(inbox); !status) return status;
+    if (auto status = ApplyScenarioEvents(inbox); !status) return status;
     msg::Collisions touched;
     dynamics::Wrench push;
     if (collisions_) {
@@ -112,7 +112,7 @@ class VehicleNode final : public lockstep::Node {
  private:
   // A gust begins; a tyre loses pressure. Where a scenario places this car, INI there: at rest, in equilibrium. A place
   // where it cannot stand is told; then it stays as it is.
-  base::Status Obey(const lockstep::Inbox& inbox) {
+  base::Status ApplyScenarioEvents(const lockstep::Inbox& inbox) {
     if (!inbox.Has(topics::kScenarioEvents)) return {};
     for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
       const auto events = idl::Decode<msg::ScenarioEvents>(*sample.payload);

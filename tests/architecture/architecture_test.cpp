@@ -91,7 +91,7 @@ std::optional<std::string> Forbidden(const fs::path& from, const fs::path& used,
   if (groups == layers.groups.end()) return "cmake/layers.txt has no group " + group;
   if (groups->second.contains("*")) return std::nullopt;
   if (group != GroupOf(used)) {
-    // Of the nodes only main.cpp knows the bus.
+    // Of the nodes only main.cpp includes the bus.
     if (group.starts_with("nodes/") && FirstParts(used, 3) == "common/runtime/dds" && from.filename() != "main.cpp") {
       return "only a node's main.cpp may include common/runtime/dds";
     }

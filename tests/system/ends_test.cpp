@@ -236,9 +236,9 @@ TEST_F(Ends, DrawnOnesAreThoseOfTheTable) {
   for (; first < end; first += kAtATime) {
     std::vector<std::pair<std::string, std::future<std::string>>> runs;
     for (std::uint64_t number = first; number < std::min(first + kAtATime, end); ++number) {
-      std::mt19937_64 lot(number);
-      const Cell& cell = table_[lot() % table_.size()];
-      const std::chrono::milliseconds at(lot() % 3000);
+      std::mt19937_64 rng(number);
+      const Cell& cell = table_[rng() % table_.size()];
+      const std::chrono::milliseconds at(rng() % 3000);
       runs.emplace_back(fmt::format("RODEIRA_DRAWN_ENDS_SEED={}: {} at {} ms", number, cell.Name(), at.count()),
                         Start(cell, at, number));
     }

@@ -42,13 +42,13 @@ double NumberBehind(const std::string& text, const std::string& word) {
   return at == std::string::npos ? -1.0 : std::strtod(text.c_str() + at + word.size(), nullptr);
 }
 
-// --- the recorder dies, and is not started again ---
+// --- the recorder is killed, and not started again ---
 
 class RecorderKilled : public Endurance {
  protected:
   static constexpr std::uintmax_t kFirstSecondBytes =
       100'000;                                     // what is embedded has 20 kB, the first chunk more than these
-  static constexpr const char* kSimulated = "20";  // seconds: at the pace below five, longer than a run lives
+  static constexpr const char* kSimulated = "20";  // seconds: at the pace below five, longer than a run lasts
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
     return {Bin("rodeira"),
             "run",
@@ -116,7 +116,7 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
   const auto seed = Setting("RODEIRA_RECORDER_KILLS_SEED", std::random_device()());
   SCOPED_TRACE(fmt::format("RODEIRA_RECORDER_KILLS_SEED={}", seed));
   fmt::print("RODEIRA_RECORDER_KILLS_SEED={}\n", seed);
-  std::mt19937_64 lot(seed);
+  std::mt19937_64 rng(seed);
   const Ended calm =
       RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", kSimulated, "--record", File("calm.mcap")});
   ASSERT_EQ(calm.status, 0) << calm.out;
@@ -126,7 +126,7 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
     const std::string name = fmt::format("killed-recorder-{}-{}", ::getpid(), i);
     const std::string recording = File(name + ".mcap");
     const bool driving = i % 8 != 0;
-    const std::chrono::milliseconds wait(lot() % (driving ? 2000 : 500));
+    const std::chrono::milliseconds wait(rng() % (driving ? 2000 : 500));
     SCOPED_TRACE(
         fmt::format("kill {}, {} ms after {}", i, wait.count(), driving ? "the first second" : "the recorder's start"));
     Started run(Command(name, recording));

@@ -195,8 +195,8 @@ TEST_P(FailingCalls, AreToldAndLeaveNothingHalfWritten) {
   fmt::print("RODEIRA_FAILING_CALLS_SEED={}\n", seed);
   ASSERT_NO_FATAL_FAILURE(RunCalm());
   ASSERT_GE(places_.size(), 4u) << "the calls of " << GetParam().name << " were not seen";
-  std::mt19937_64 lot(seed);
-  std::ranges::shuffle(places_, lot);
+  std::mt19937_64 rng(seed);
+  std::ranges::shuffle(places_, rng);
   const auto wanted = std::min(places_.size(), static_cast<std::size_t>(Setting("RODEIRA_FAILING_CALLS", 5)));
   fmt::print("{} of {} places\n", wanted, places_.size());
   // Some at a time: they mostly wait.

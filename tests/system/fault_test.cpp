@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node that dies, hangs, is stopped or does not belong: time stops, the node is named, the status says so.
+// A node that is killed, hangs, is stopped or is not of the run: time stops, the node is named, the status is 1 or 2.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

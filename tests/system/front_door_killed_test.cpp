@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rodeira run` is killed: no process of its run lives two seconds later, whatever the run was doing.
+// `rodeira run` is killed: no process of its run exists two seconds later, whatever the run was doing.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -94,7 +94,7 @@ TEST_F(KilledFrontDoor, RightAfterANodeWasTerminated) {
   ExpectNoProcessAfterItsDeath(run);
 }
 
-// All threads of it. The kernel lets go on what stands when its parent dies, and nothing that stops a moment later.
+// Stops all threads of it. When the parent ends, the kernel continues processes that are stopped at that moment only.
 bool IsStopped(pid_t process) {
   std::error_code problem;
   for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process), problem)) {

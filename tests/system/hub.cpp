@@ -89,7 +89,7 @@ void Hub::Open(const std::string& netns, const std::vector<std::string>& interfa
 }
 
 void Hub::Repeat(const Weather& weather) {
-  std::mt19937_64 lot(20260131);
+  std::mt19937_64 rng(20260131);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::priority_queue<Frame> waiting;
   std::uint64_t number = 0;
@@ -113,12 +113,12 @@ void Hub::Repeat(const Weather& weather) {
         }
         for (const int to : sockets_) {
           if (to == from) continue;
-          if (share(lot) < weather.loss) {
+          if (share(rng) < weather.loss) {
             ++lost_;
             continue;
           }
           const std::chrono::nanoseconds late(
-              static_cast<std::int64_t>(share(lot) * 1e3 * static_cast<double>(weather.jitter.count())));
+              static_cast<std::int64_t>(share(rng) * 1e3 * static_cast<double>(weather.jitter.count())));
           waiting.push({WallClock::now() + late, ++number, to, std::vector<char>(buffer, buffer + size)});
         }
       }

@@ -71,7 +71,7 @@ TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
   auto window = dds::OpenKeysSender(*participant.value());
   ASSERT_TRUE(window.ok()) << window.error().Text();
-  // What is said for how long; at the end the window dies without a word while it holds the throttle.
+  // The keys and for how long; at the end the window is killed while the throttle is held.
   const auto say = [&](std::vector<launch::LiveKey> keys, std::chrono::milliseconds how_long) {
     const auto until = std::chrono::steady_clock::now() + how_long;
     while (std::chrono::steady_clock::now() < until) {

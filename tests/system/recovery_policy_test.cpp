@@ -129,7 +129,8 @@ TEST_F(Recovery, RepeatedCrashWithoutProgressEndsRun) {
   EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
 }
 
-// Its other life computes what it has said already: the keeper of that notices, and the node is named, not the keeper.
+// Its next incarnation computes other samples than those it has published: the node that kept them notices, and the
+// restarted node is named.
 TEST_F(Recovery, ANodeThatReadsAClockIsDetectedWhenItIsRestarted) {
   const auto launch = folder_.Write(
       "broken.yaml",

@@ -30,7 +30,7 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
   const int kills = static_cast<int>(Setting("RODEIRA_KILLS", 6));
   const auto seed = static_cast<unsigned>(Setting("RODEIRA_KILLS_SEED", std::random_device()()));
   SCOPED_TRACE("RODEIRA_KILLS_SEED=" + std::to_string(seed));
-  std::mt19937 lot(seed);
+  std::mt19937 rng(seed);
   const std::string seconds = "16";  // a run that is over is followed by another one
   Undisturbed(seconds);
   int done = 0;
@@ -42,13 +42,13 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
     // The first instants may fall into the start.
     while (done < kills) {
       // Two of three once the run has got on since the last one, the others in the midst of a recovery.
-      if (lot() % 3 != 0) WaitForGrowth(recording);
-      std::this_thread::sleep_for(std::chrono::milliseconds(200 + lot() % 1500));
+      if (rng() % 3 != 0) WaitForGrowth(recording);
+      std::this_thread::sleep_for(std::chrono::milliseconds(200 + rng() % 1500));
       const std::string& part = kParts[static_cast<std::size_t>(done) % kParts.size()];
       const pid_t victim =
           ProcessesOf(run_name, "recorder").empty() && ProcessesOf(run_name, "ego").empty() ? -1 : Find(run_name, part);
       if (victim < 0) break;  // the run is over
-      const int signal = lot() % 3 == 0 ? SIGSTOP : SIGKILL;
+      const int signal = rng() % 3 == 0 ? SIGSTOP : SIGKILL;
       ::kill(victim, signal);
       story += part + (signal == SIGSTOP ? " stopped, " : " killed, ");
       ++done;
@@ -117,8 +117,8 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   EXPECT_GT(lost_at, 0);
 }
 
-// It may die before any process has heard of it: in its first moment, while it looks for other clocks, while the nodes
-// start.
+// It may be killed before any process has received its samples: at its start, while it looks for other clocks, while
+// the nodes start.
 TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
   Undisturbed("2");
   for (const auto after : {0ms, 100ms, 350ms, 600ms}) {

@@ -22,7 +22,7 @@ std::string FindIp() {
   return "";
 }
 
-// Of test programs that were killed.
+// Removes network namespaces that killed test programs have left.
 void RemoveOldSpaces(const std::string& ip) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator("/run/netns", none)) {

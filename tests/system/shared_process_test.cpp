@@ -80,14 +80,14 @@ TEST_P(InGroups, DrawnAtRandomARunHasTheBitsOfSeparateProcesses) {
   const auto& [file, seconds, nodes, more] = GetParam();
   const auto seed = static_cast<unsigned>(Setting("RODEIRA_GROUPINGS_SEED", 1));
   SCOPED_TRACE("RODEIRA_GROUPINGS_SEED=" + std::to_string(seed));
-  std::mt19937 lot(seed);
+  std::mt19937 rng(seed);
   Separate(LaunchFile(file), seconds, more);
   if (HasFatalFailure()) return;
   for (std::uint64_t i = 0; i < Setting("RODEIRA_GROUPINGS", 2); ++i) {
     std::map<std::string, std::string> groups;  // the first grouping has all nodes in one process
     std::string story;
     for (const std::string& node : nodes) {
-      const auto drawn = i == 0 ? 1 : lot() % 3;
+      const auto drawn = i == 0 ? 1 : rng() % 3;
       if (drawn > 0) groups[node] = "p" + std::to_string(drawn);
       story += fmt::format("{}: {}, ", node, drawn);
     }
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Drawn{"scripted.yaml", "2", {"road", "driver", "ego", "traffic", "story", "recorder"}, {}}),
     [](const auto& drawn) { return std::filesystem::path(drawn.param.launch).stem().string(); });
 
-// A part that dies takes the nodes of its process with it; all of them are started again and come to the same bits.
+// A part that ends ends the other nodes of its process; all of them are started again and come to the same bits.
 TEST_F(SharedProcesses, AKilledProcessIsStartedAgainAndTheRunComesToTheSameBits) {
   const std::string launch = LaunchFile("first_drive.yaml");
   Separate(launch, "8", {});

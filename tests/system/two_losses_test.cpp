@@ -37,19 +37,19 @@ constexpr std::array<int, 4> kSignals = {SIGKILL, SIGSEGV, SIGTERM, SIGSTOP};
 
 // Number `seed` of a sequence in which each part is lost after each part, up to three seconds later.
 std::vector<Loss> Draw(std::uint64_t seed, std::size_t count) {
-  std::mt19937_64 lot(seed);
+  std::mt19937_64 rng(seed);
   constexpr std::uint64_t kPairs = kParts.size() * kParts.size();
   const std::uint64_t pair = seed * 20 % kPairs;  // neighbours in the sequence have little in common
   std::vector<Loss> losses;
-  std::chrono::milliseconds at(200 + lot() % 800);
+  std::chrono::milliseconds at(200 + rng() % 800);
   for (std::size_t i = 0; i < count; ++i) {
     Loss& loss = losses.emplace_back();
-    loss.part = kParts[i == 0 ? pair / kParts.size() : i == 1 ? pair % kParts.size() : lot() % kParts.size()];
+    loss.part = kParts[i == 0 ? pair / kParts.size() : i == 1 ? pair % kParts.size() : rng() % kParts.size()];
     // A clock that is told to end stops the run in order.
-    do loss.signal = kSignals[lot() % kSignals.size()];
+    do loss.signal = kSignals[rng() % kSignals.size()];
     while (loss.part == "clock" && loss.signal == SIGTERM);
     loss.at = at;
-    at += std::chrono::milliseconds(lot() % 2 == 0 ? lot() % 500 : lot() % 3000);
+    at += std::chrono::milliseconds(rng() % 2 == 0 ? rng() % 500 : rng() % 3000);
   }
   return losses;
 }

@@ -75,7 +75,7 @@ std::vector<EndsRow> ReadRows() {
       [](const std::string& cause) { return kWrongSamples.contains(cause) || kWrongInput.contains(cause); });
 }
 
-// A program of the run's domain that is not of the run: what it hears of a source it publishes again, changed.
+// A program of the run's domain that is not of the run: it publishes each sample of a source again, changed.
 class Intruder {
  public:
   // `is_kept`: lost parts of the run can be started again, for which its processes meet in another way.

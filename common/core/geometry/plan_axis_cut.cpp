@@ -124,7 +124,7 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
   const double whole = CubicLength(element, element.p_end);
   if (!(whole > 0.0 && std::isfinite(whole) && element.length_m / kMaxPanelHalf_m < kMaxPanels)) return false;
   if (0.5 * whole / kMaxPanelHalf_m > kMaxPanels) return false;  // each panel is shorter than twice its greatest half
-  const double stretch = element.length_m / whole;  // metres of station a metre of curve
+  const double stretch = element.length_m / whole;               // metres of station a metre of curve
   const Eigen::Vector2d ahead(std::cos(element.heading_rad), std::sin(element.heading_rad));
   const Eigen::Vector2d left = Left(ahead);
   double s = element.s_m;

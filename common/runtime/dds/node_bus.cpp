@@ -80,7 +80,7 @@ base::Status NodeBus::Connect(Participant& participant) {
   }
   if (auto status = ConnectSampleBatches(participant); !status) return status;
   // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their
-  // process also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
+  // process also reads can stop each other for good, each within a lock of Fast DDS that the other waits for.
   auto answers = participant.MakeWriter(topics::kRetransmissions, Delivery::kBestEffortRepeated);
   if (!answers) return answers.error();
   answers_writer_ = std::move(answers).value();

@@ -100,8 +100,8 @@ int UnusedParticipant(std::uint32_t domain) {
     std::error_code problem;
     return std::filesystem::exists(fmt::format("/dev/shm/fastrtps_port{}", port), problem);
   };
-  std::random_device lot;  // two that begin at once should not meet
-  const int begin = static_cast<int>(lot() % kNumbers);
+  std::random_device rng;  // two processes that start at once try different numbers
+  const int begin = static_cast<int>(rng() % kNumbers);
   for (int i = 0; i < kNumbers; ++i) {
     const int number = kFirst + (begin + i) % kNumbers;
     if (!is_used(number, 0) && !is_used(number, 1)) return number;

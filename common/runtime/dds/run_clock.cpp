@@ -51,8 +51,8 @@ std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
   return clock_id;
 }
 
-// The clock's process: its endpoints, its loop, and its end. Which nodes take part, what becomes of losses, what an
-// operator asks and how the run is told have rooms of their own (clock_*.hpp).
+// The clock's process: its endpoints, its loop, and its end. Attendance of nodes, losses, commands of the operator and
+// the run log are in files of their own (clock_*.hpp).
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
@@ -67,22 +67,22 @@ class ClockProcess {
     DomainSettings settings = DomainOf(options_, run_.launch, "clock");
     settings.serves_discovery = true;
     auto participant = Participant::Open(settings);
-    if (!participant) return Complain(participant.error());
+    if (!participant) return ReportFault(participant.error());
     participant_ = std::move(participant).value();
-    if (auto status = Connect(*participant_); !status) return Complain(status.error());
+    if (auto status = Connect(*participant_); !status) return ReportFault(status.error());
     Say("clock id={} life={}", clock_id_, options_.incarnation);
     Say("starting {} nodes", run_.roster.nodes().size());
     if (options_.listen) {
       if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { OnSupervisor(); }); !status)
-        return Complain(status.error());
+        return ReportFault(status.error());
     }
     run_.start = WallClock::now();
-    if (options_.incarnation > 0) GoOn();
+    if (options_.incarnation > 0) Resume();
     return Loop();
   }
 
  private:
-  static int Complain(const base::Error& error) {
+  static int ReportFault(const base::Error& error) {
     Say("fault {}", OneLine(error.Text()));
     return error.exit_status();
   }
@@ -144,7 +144,7 @@ class ClockProcess {
   }
 
   // This incarnation of the clock takes the place of one that has died: the nodes' reports say where the run stands.
-  void GoOn() {
+  void Resume() {
     run_.clock.Rebuild();
     serial_ = options_.incarnation << 24;
     if (options_.begun_ns < 0) return;
@@ -156,7 +156,7 @@ class ClockProcess {
     auto said = WallClock::now() - 1s;
     bool told_ready = false;
     while (!run_.clock.all_finished()) {
-      if (MustYield()) return Complain(SecondClock().error());
+      if (MustYield()) return ReportFault(SecondClock().error());
       TakeReports();
       for (const LastWord& word : supervisor_.TakeLastWords()) gate_.Take(word);
       if (!gate_.refusal().empty()) return Abort({gate_.refusal(), 2});

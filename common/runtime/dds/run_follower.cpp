@@ -42,16 +42,16 @@ class Follower {
 
   int Run() {
     auto participant = Participant::Open(DomainOf(options_, launch_, "follower on " + options_.follow));
-    if (!participant) return Complain(participant.error());
+    if (!participant) return ReportFault(participant.error());
     participant_ = std::move(participant).value();
-    if (auto status = Connect(); !status) return Complain(status.error());
+    if (auto status = Connect(); !status) return ReportFault(status.error());
     if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { OnSupervisor(); }); !status)
-      return Complain(status.error());
+      return ReportFault(status.error());
     return Loop();
   }
 
  private:
-  static int Complain(const base::Error& error) {
+  static int ReportFault(const base::Error& error) {
     Say("fault {}", OneLine(error.Text()));
     return error.exit_status();
   }
@@ -115,13 +115,13 @@ class Follower {
     for (;;) {
       const Now now = Look();
       if (now.clock_id == 0) {
-        if (StopSignals() > 0) return Complain(base::Failed("run.interrupted", "stopped by a signal"));
+        if (StopSignals() > 0) return ReportFault(base::Failed("run.interrupted", "stopped by a signal"));
         Show([&] { Say("waiting for the clock of run '{}' in domain {}", OneLine(options_.run), options_.domain); });
         continue;
       }
       if (!met_) {
         if (now.grant.through >= 0) {
-          return Complain(base::WrongInput(
+          return ReportFault(base::WrongInput(
               "run.already_running",
               fmt::format("it is under way already, at step {}, without the processes of this command; "
                           "wait for its end or choose another --run",
@@ -138,7 +138,7 @@ class Follower {
       }
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
       if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
-        return Complain(base::Failed(
+        return ReportFault(base::Failed(
             "run.clock_lost", fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
                                           std::chrono::duration<double>(kClockSilence).count())));
       }

@@ -48,9 +48,7 @@ std::optional<std::string> SegmentIn(const std::string& line) {
 
 }  // namespace
 
-std::uint64_t SharedMemoryNeed(std::uint32_t segment_kib) {
-  return FileOfSegment(segment_kib) + kPortsKib * kKib;
-}
+std::uint64_t SharedMemoryNeed(std::uint32_t segment_kib) { return FileOfSegment(segment_kib) + kPortsKib * kKib; }
 
 base::Result<std::uint64_t> FreeSharedMemory(const std::filesystem::path& folder) {
   struct statvfs info {};

@@ -68,7 +68,7 @@ void Clock::Rebuild() {
   SetRecovery();
 }
 
-// Also later: a node that was stopped may hear only now what the clock before this one has granted.
+// Also later: a node that was stopped may receive only now a grant of the clock before this one.
 void Clock::LearnGranted(const Report& report) {
   if (!has_predecessor_) return;
   grant_.through = std::max(grant_.through, report.granted);

@@ -255,7 +255,7 @@ class ShuffledRun {
     if (runners_[n] == nullptr || EndsInOrder()) return false;
     return !over_[n] || runners_[n]->report().phase == Phase::kFinished;
   }
-  // With its mailbox, what it kept, and what it has said to a clock that knows better.
+  // Kills or terminates a random node; with it its mailbox, its kept samples and its unreported progress are lost.
   void KillOne() {
     const auto n = static_cast<NodeIndex>(Draw(runners_.size()));
     if (!MayBeLost(n)) return;
@@ -406,7 +406,7 @@ class ShuffledRun {
   std::vector<std::unique_ptr<Runner>> runners_;
   std::vector<bool> over_;
   std::vector<std::uint32_t> incarnations_;       // that were started
-  std::vector<std::optional<std::string>> dead_;  // how a node was lost, of which no clock knows yet
+  std::vector<std::optional<std::string>> dead_;  // how a node was lost; set until a clock has noticed
   // A node that is stopped: until when, whether it is lost then, and what has come for it.
   struct Stopped {
     std::uint64_t until = 0;

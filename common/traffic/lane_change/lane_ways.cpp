@@ -18,7 +18,7 @@ namespace {
 constexpr double kApart_m = 6.0;             // between the middles of the two lanes, at most …
 constexpr double kAside = 0.1;               // … and between their directions, rad
 constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a lane is checked
-constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
+constexpr double kRouteSight_m = 500.0;      // within which a driver considers the lane from which the route goes on
 constexpr double kEndNotice_s = 1.5, kEndBraking_mps2 = 1.5;  // within which a lane's end is noticed and stopped for
 constexpr double kWaitingMargin_m = 3.0;                      // before the last place from which a change is possible
 constexpr double kShortTrack_m = 60.0;                        // from one junction to the next

@@ -18,7 +18,7 @@ constexpr double kAsFast = 1.05;  // an engine that turns faster than this share
 constexpr double kSlows_mps2 = -0.3;
 constexpr double kSlipFrom_mps = 1.0;  // slower, the motion of the rear axle says nothing of its slip angle
 
-// What the driver knows of his car here and now: what its engine gives in the gear that is engaged.
+// The car's present limits as its driver assumes them: the engine's force in the engaged gear.
 driver::PedalSettings PedalsOf(const dynamics::BicycleChassis& chassis, const dynamics::Powertrain& powertrain,
                                double speed_mps, double wanted_mps2) {
   const dynamics::BicycleSettings& car = chassis.settings;

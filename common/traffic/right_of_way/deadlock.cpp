@@ -70,7 +70,7 @@ bool Deadlocks::RevokeReservation(std::uint32_t id) {
   return true;
 }
 
-// Whether it waits at a line and might be let in now.
+// Whether the vehicle waits at a line and can be granted its zones now.
 bool Deadlocks::IsAtLine(std::uint32_t id) const {
   const ConflictPassage& passage = in_.passages[id];
   return passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred;

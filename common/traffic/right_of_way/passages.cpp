@@ -22,7 +22,7 @@ constexpr double kAtLine_m = 1.5;  // a full stop counts within this before the 
 
 }  // namespace
 
-// The same of the place that an agent asks of again and again, and then knows.
+// As above, for the place of one agent; the result is kept, since it is queried in each step.
 double Passages::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place) {
   for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < odometer_m && &stretch != &in_.stretches[id].back()) continue;

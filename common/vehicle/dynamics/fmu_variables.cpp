@@ -26,7 +26,7 @@ struct Finder {
   std::string missing = {};  // the first one
   Way missing_way = Way::kInput;
 
-  void Complain(const std::string& what, const std::string& place) {
+  void AddProblem(const std::string& what, const std::string& place) {
     if (status) status = base::WrongInput("fmu.wrong_variable", what, place);
   }
   // The line of `names` that maps it, or that of the FMU's description.
@@ -49,9 +49,9 @@ struct Finder {
     for (const auto& [ours, own] : names.own) {
       if (own == missing) place = PlaceFor(ours, nullptr);
     }
-    Complain(fmt::format("the FMU has no variable '{}' ({}){}", missing, output ? "an output" : "an input",
-                         base::DidYouMean(missing, there)),
-             place);
+    AddProblem(fmt::format("the FMU has no variable '{}' ({}){}", missing, output ? "an output" : "an input",
+                           base::DidYouMean(missing, there)),
+               place);
   }
 
   // FMI 2.0.4, 2.1.7: any variable may be read; inputs and tunable parameters are set.
@@ -80,16 +80,16 @@ struct Finder {
     }
     const std::string place = PlaceFor(name, found);
     if (!Fits(found->causality, way)) {
-      Complain(fmt::format("'{}' of the FMU is declared '{}'; {} was expected", own, found->causality,
-                           way == Way::kOutput  ? "'output'"
-                           : way == Way::kStart ? "'input' or 'parameter'"
-                                                : "'input'"),
-               place);
+      AddProblem(fmt::format("'{}' of the FMU is declared '{}'; {} was expected", own, found->causality,
+                             way == Way::kOutput  ? "'output'"
+                             : way == Way::kStart ? "'input' or 'parameter'"
+                                                  : "'input'"),
+                 place);
     }
-    if (found->type == fmi::VariableType::kOther) Complain(fmt::format("'{}' of the FMU is no number", own), place);
+    if (found->type == fmi::VariableType::kOther) AddProblem(fmt::format("'{}' of the FMU is no number", own), place);
     const auto conversion = ConversionOf(description, found->unit, unit);
     if (!conversion) {
-      Complain(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, found->unit, unit), place);
+      AddProblem(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, found->unit, unit), place);
       return;
     }
     into.factor = conversion->factor;
@@ -98,9 +98,9 @@ struct Finder {
     if (way == Way::kOutput) return;
     const auto [other, is_new] = inputs.emplace(found, name);
     if (!is_new)
-      Complain(fmt::format("'{}' and '{}' are both the variable '{}' of the FMU; each input needs one of its own",
-                           other->second, name, own),
-               names.places.contains(name) ? place : PlaceFor(other->second, found));
+      AddProblem(fmt::format("'{}' and '{}' are both the variable '{}' of the FMU; each input needs one of its own",
+                             other->second, name, own),
+                 names.places.contains(name) ? place : PlaceFor(other->second, found));
   }
 };
 
@@ -171,9 +171,9 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   find.ComplainOfMissing();
   for (const auto& [name, own] : names.own) {
     if (find.known.contains(name)) continue;
-    find.Complain(fmt::format("'names.{}' is no variable of a vehicle{}", name,
-                              base::DidYouMean(name, {find.known.begin(), find.known.end()})),
-                  find.PlaceFor(name, nullptr));
+    find.AddProblem(fmt::format("'names.{}' is no variable of a vehicle{}", name,
+                                base::DidYouMean(name, {find.known.begin(), find.known.end()})),
+                    find.PlaceFor(name, nullptr));
   }
   if (!find.status) return find.status.error();
   if (!find.converted.empty())

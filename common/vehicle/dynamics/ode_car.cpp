@@ -182,7 +182,7 @@ void OdeCar::SetGround(const Eigen::Vector3d& point_W, const Eigen::Vector3d& no
   dGeomPlaneSetParams(world_->ground, normal_W.x(), normal_W.y(), normal_W.z(), normal_W.dot(point_W));
 }
 
-// Spring k and damper c of the hinges as ODE wants them: ERP = h k / (h k + c), CFM = 1 / (h k + c).
+// Spring k and damper c of the hinges in ODE's terms: ERP = h k / (h k + c), CFM = 1 / (h k + c).
 void OdeCar::Step(double dt_s) {
   for (std::size_t i = 0; i < kWheels; ++i) {
     const SuspensionSettings& suspension = world_->settings.car.suspension[i / 2];

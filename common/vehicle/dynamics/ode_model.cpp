@@ -89,7 +89,7 @@ TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
 void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls clamped = Clamp(controls);
-  car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
+  car_->Give(now_.bodies);  // only what a snapshot holds
   now_.bodies = car_->bodies();
   std::array<WheelGround, kWheels> before;
   for (std::size_t i = 0; i < kWheels; ++i) before[i] = now_.wheels[i];

@@ -55,7 +55,7 @@ Row::Directions Row::DirectionsAt(const double* q) const {
   return d;
 }
 
-// The one direction of a row that knows no other.
+// The direction of a row with a single one.
 Vector3d Row::Way(const double* q) const {
   Vector3d way = Vector3d::Zero();
   for (const Local& local : locals_) {

@@ -58,7 +58,7 @@ SdlGamePad::~SdlGamePad() {
   SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
 }
 
-// Steering wheels that the database knows are no pads.
+// Steering wheels of the database do not count as game pads.
 void SdlGamePad::Find() {
   SDL_LockJoysticks();
   for (int index = 0; index < SDL_NumJoysticks() && pad_ == nullptr; ++index) {

@@ -64,7 +64,7 @@ bool Constant(const Cubic& cubic) {
          !(cubic.a == 0.0 && std::signbit(cubic.a));
 }
 
-constexpr std::uint8_t kMaxPieces = 64;   // of one panel: the road itself knows the others
+constexpr std::uint8_t kMaxPieces = 64;   // of one panel; of others the road itself is queried
 constexpr std::size_t kMaxLanes = 64;     // of a steady piece
 constexpr std::size_t kMaxOfASide = 255;  // of any
 

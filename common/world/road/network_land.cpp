@@ -277,8 +277,8 @@ void NetworkLand::FromBoundary(const Piece& piece, const Vector2d& p_W, LandBoun
   bounds.Add(bound, distance);
 }
 
-// Some pieces are left out, for no point of the square can they be the nearest one nor hold the land tighter than
-// others do. How tightly these hold it everywhere in the square is known of posts, which stand still.
+// Leaves out pieces that for no point of the square are the nearest one, nor bound the land more tightly than others.
+// Posts have fixed places, so their bounds hold everywhere in the square.
 NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, const Vector2d& middle_W) const {
   const double radius_m = held_.radius_m();
   struct Known {
@@ -308,7 +308,7 @@ NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, c
     }
   }
   const double nearest_m = known.front().distance_m + 2.0 * radius_m;
-  // Where the nearest one may be farther than the verge all that are not are looked at.
+  // Where the nearest piece may be beyond the verge, all pieces within the verge are examined.
   const double told_m = nearest_m < kSurelyVerge * kVerge_m ? nearest_m : std::max(nearest_m, kVerge_m + radius_m);
   for (const auto& [distance_m, index] : known) {
     const EdgeHeights& heights = pieces_[index].heights;
@@ -327,7 +327,7 @@ NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, c
   return held;
 }
 
-// Of equally near ones the first.
+// The nearest piece; of equally near ones the first.
 std::optional<std::uint32_t> NetworkLand::NearestPiece(const Held& held, const Vector2d& p_W, double off_m) const {
   std::optional<std::uint32_t> nearest;
   double nearest_m = kVerge_m;

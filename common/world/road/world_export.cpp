@@ -215,7 +215,7 @@ std::string MeasuredText(const network::CrgSurface& crg, double length_m, const 
   return text + fmt::format("><userData code=\"rodeira:goes_on\" value=\"{} {}\"/></CRG>\n", before_m, behind_m);
 }
 
-// Made roughness is nothing that OpenDRIVE knows.
+// OpenDRIVE has no element for generated roughness.
 std::string Surface(const network::RoadSpec& spec, double length_m, const NameOf& name_of) {
   if (spec.crg.empty() && spec.unevenness.empty()) return "";
   std::string text = "<surface>\n";

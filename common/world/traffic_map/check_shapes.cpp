@@ -71,7 +71,7 @@ std::string Turned(const Lane& lane) {
                      lane.left.inverted ? lane.right.curve : lane.left.curve);
 }
 
-// False: there is no lane to speak of, and how it meets others says nothing.
+// False: the shape is no lane, so that its joints with others are not checked.
 bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& findings) {
   const auto run = [](const Border& border) -> Eigen::Vector2d { return border.plan.p_W[3] - border.plan.p_W[0]; };
   const auto head = [](const Border& border) { return border.plan.Tangent(0.0); };

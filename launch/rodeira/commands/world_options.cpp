@@ -26,7 +26,8 @@ void AddWorld(CLI::App& app, ChosenCommand& chosen) {
   for (const auto& [name, text] :
        {std::pair("check", "name every problem of a world file, or of a folder that was built"),
         std::pair("info", "what the world is"), std::pair("map", "draw the plan as SVG"),
-        std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"),
+        std::pair("export", "write the roads as OpenDRIVE"),
+        std::pair("query", "height, normal, friction and surface at X Y"),
         std::pair("build",
                   "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb)")}) {
     CLI::App* command = world->add_subcommand(name, text);

@@ -204,7 +204,7 @@ class ProcessRun {
     processes_.clock().Send(word.empty() ? fmt::format("lost {} {} {}", node, incarnation, processes_.FateOf(child))
                                          : fmt::format("said {} {} {}", node, incarnation, word));
   }
-  // Of a node that the clock no longer hears.
+  // Called for a node that the clock no longer receives reports of.
   std::optional<std::string> FateOfSilent(const std::string& node) {
     processes_.Poll();
     for (const Child& child : processes_.children()) {

@@ -16,7 +16,7 @@
 namespace rodeira::nodes {
 namespace {
 
-// Of a context that was made of a visual, which knows no configuration: one with its window's visual. Null: there is
+// For a context that was made of a visual, without a configuration: one with its window's visual. Null: there is
 // none.
 GLXFBConfig ConfigOfWindow(Display* display, GLXDrawable window) {
   XWindowAttributes window_is;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr XrDuration kPatience_ns = 5'000'000'000;  // with a picture that the runtime still shows
 
-struct SwapchainImage {  // XrSwapchainImageOpenGLKHR; its header wants the window system's
+struct SwapchainImage {  // XrSwapchainImageOpenGLKHR; its header includes the window system's
   XrStructureType type = XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR;
   void* next = nullptr;
   std::uint32_t image = 0;

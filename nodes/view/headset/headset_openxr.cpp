@@ -139,9 +139,9 @@ class OpenXrHeadset final : public Headset {
     return false;
   }
 
-  // OpenXR wants to be asked before there is a session; OpenGL 3 and later are the same to us.
+  // OpenXR requires this query before a session is made. Any version of OpenGL from 3 on will do.
   void AskWhatOpenGl(XrSystemId system) {
-    struct Requirements {  // XrGraphicsRequirementsOpenGLKHR; its header wants the window system's
+    struct Requirements {  // XrGraphicsRequirementsOpenGLKHR; its header includes the window system's
       XrStructureType type = XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR;
       void* next = nullptr;
       XrVersion least = 0, most = 0;

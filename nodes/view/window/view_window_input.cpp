@@ -15,11 +15,11 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr int kClick_px = 4;         // moved farther it is no click
-constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
-constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
-constexpr double kWeather_s = 8.0;   // until another weather is there
-constexpr double kVolumeStep = 0.1;  // a press
+constexpr int kClick_px = 4;         // a press that moves farther is a drag
+constexpr double kZoom = 1.15;       // for each notch of the mouse's wheel
+constexpr double kTurn_rad = 0.006;  // for each pixel of a drag
+constexpr double kWeather_s = 8.0;   // duration of a change of weather
+constexpr double kVolumeStep = 0.1;  // for each press
 constexpr const char* kNoneTakes =
     "no node of this run takes requests: a node of kind scenario with 'requests: true' does";
 constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
@@ -124,7 +124,7 @@ bool ViewWindow::TakeMouse(const SDL_Event& event) {
   return true;
 }
 
-// The next one of all, the traffic behind the cars; also the one that the person looks at, until it comes home.
+// Follows the next vehicle; cars come first, then traffic. Any other than the one at the start is also chosen.
 void ViewWindow::FollowNext(int step) {
   const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
   if (all == 0) return;
@@ -173,7 +173,7 @@ void ViewWindow::SetVolume(double volume) {
   Note(fmt::format("volume {:.0f} %", 100.0 * volume_));
 }
 
-// Within some seconds.
+// Requests the weather `which`; it changes within kWeather_s.
 void ViewWindow::AskForWeather(std::size_t which) {
   if (!ask_) return Note(kNoneTakes);
   const auto all = weather::NamedWeathers();
@@ -184,13 +184,13 @@ void ViewWindow::AskForWeather(std::size_t which) {
     Note(kTooMany);
 }
 
-// What an operator may ask, asked in the window.
+// Says so where the window has no connection to the clock. `asked`: the command was sent.
 bool ViewWindow::Operate(bool asked) {
   if (!asked) Note(kClockElsewhere);
   return true;
 }
 
-// None, then one statistic after the other.
+// Steps through the statistics over the ground; the first step of the cycle shows none.
 void ViewWindow::NextHeat() {
   const std::size_t next = heat_shown_ ? static_cast<std::size_t>(*heat_shown_) + 1 : 0;
   heat_shown_ = next < scene::kHeatKinds ? std::optional(static_cast<scene::HeatKind>(next)) : std::nullopt;
@@ -209,7 +209,7 @@ void ViewWindow::FromAboveOrBack() {
   }
 }
 
-// Over the picture; what is chosen there counts from the next one on.
+// Draws the menu over the picture. A choice takes effect with the next picture.
 void ViewWindow::DrawMenu() {
   MenuSight sight;
   sight.camera = live_.camera;

@@ -22,7 +22,7 @@ constexpr double kStep_s = 0.05;
 constexpr std::uint32_t kBrake = 1, kLeft = 2, kRight = 4;
 
 // A car at one moment: the track under its middle, where it points, and what its lights say.
-struct Moment {
+struct Instant {
   std::uint32_t trip = 0, track = 0;
   double heading_rad = 0.0, speed_mps = 0.0;
   std::uint32_t lights = 0;
@@ -41,12 +41,12 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
   TrafficSettings settings;
   settings.vehicles = 25;
   TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(map), {}).value();
-  std::vector<std::deque<Moment>> past(settings.vehicles);
+  std::vector<std::deque<Instant>> past(settings.vehicles);
   for (int i = 0; i * kStep_s < for_s; ++i) {
     model.Step(kStep_s, {});
     for (const AgentPose& pose : model.poses()) {
-      const Moment now{pose.trip, TrackOf(model.agent(pose.id)), FootprintOf(pose, model.traits(pose.id)).heading_rad,
-                       pose.speed_mps, model.LightsOf(pose)};
+      const Instant now{pose.trip, TrackOf(model.agent(pose.id)), FootprintOf(pose, model.traits(pose.id)).heading_rad,
+                        pose.speed_mps, model.LightsOf(pose)};
       auto& moments = past[pose.id];
       if (!moments.empty() && moments.back().trip != now.trip) moments.clear();
       moments.push_back(now);
@@ -61,7 +61,7 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
 TEST(CarLights, ACarThatTurnsIndicatesToThatSide) {
   for (const char* map : {"crossing", "town", "lights"}) {
     int left = 0, right = 0, straight = 0;
-    WatchTracks(map, 150.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Moment>& moments) {
+    WatchTracks(map, 150.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Instant>& moments) {
       const std::uint32_t on = moments[moments.size() - 2].track;  // which it leaves now
       std::size_t first = moments.size() - 1;
       while (first > 0 && moments[first - 1].track == on) --first;
@@ -91,22 +91,23 @@ TEST(CarLights, ACarThatTurnsIndicatesToThatSide) {
 // Round a roundabout no vehicle indicates but one that leaves it at the next exit, to the outside, from before it does.
 TEST(CarLights, ACarThatLeavesARoundaboutIndicates) {
   int leaves = 0, stays = 0, enters = 0;
-  WatchTracks("roundabout", 200.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Moment>& moments) {
-    const auto& graph = model.graph();
-    const Moment &before = moments[moments.size() - 2], &now = moments.back();
-    const bool from_ring = lanes::OnRing(graph, before.track), to_ring = lanes::OnRing(graph, now.track);
-    if (!from_ring && to_ring) {
-      EXPECT_EQ(before.lights & (kLeft | kRight), 0u) << "car " << id << " enters";
-      ++enters;
-    }
-    if (!from_ring || graph[before.track].next.size() < 2) return;
-    ++(to_ring ? stays : leaves);
-    for (std::size_t k = moments.size() - 1;
-         k-- > 0 && k + 11 > moments.size() && lanes::OnRing(graph, moments[k].track);) {
-      EXPECT_EQ(moments[k].lights & (kLeft | kRight), to_ring ? 0u : kRight)
-          << "car " << id << (to_ring ? " stays" : " leaves");
-    }
-  });
+  WatchTracks("roundabout", 200.0,
+              [&](const TrafficModel& model, std::uint32_t id, const std::deque<Instant>& moments) {
+                const auto& graph = model.graph();
+                const Instant &before = moments[moments.size() - 2], &now = moments.back();
+                const bool from_ring = lanes::OnRing(graph, before.track), to_ring = lanes::OnRing(graph, now.track);
+                if (!from_ring && to_ring) {
+                  EXPECT_EQ(before.lights & (kLeft | kRight), 0u) << "car " << id << " enters";
+                  ++enters;
+                }
+                if (!from_ring || graph[before.track].next.size() < 2) return;
+                ++(to_ring ? stays : leaves);
+                for (std::size_t k = moments.size() - 1;
+                     k-- > 0 && k + 11 > moments.size() && lanes::OnRing(graph, moments[k].track);) {
+                  EXPECT_EQ(moments[k].lights & (kLeft | kRight), to_ring ? 0u : kRight)
+                      << "car " << id << (to_ring ? " stays" : " leaves");
+                }
+              });
   EXPECT_GT(leaves, 10);
   EXPECT_GT(stays, 10);
   EXPECT_GT(enters, 10);

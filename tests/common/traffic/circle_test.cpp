@@ -369,7 +369,7 @@ TEST(Circle, AVehicleThatMergesBeforeTheLeaderTakesItsRoom) {
   PassesAcross(at, 1, second);
 }
 
-// One that has been let in behind a vehicle that stands in its way, with nowhere to go, is not counted on to go.
+// A vehicle that was granted its zones behind a blocked vehicle does not count as leaving.
 TEST(Circle, AVehicleThatIsHeldInItsZonesIsNotCountedOn) {
   constexpr double kStreet_m = 5.0, kEast_m = 15.0 + kStreet_m, kUp_m = kEast_m + 4.0;
   Streets at(Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1") + To("2")),

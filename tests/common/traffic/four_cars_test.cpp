@@ -65,7 +65,7 @@ class FourCars : public testing::Test {
     }
   }
 
-  // The trip on which a car's lot at its first branch is this one.
+  // The trip on which a car's random number at its first branch is this one.
   std::uint32_t TripFor(std::uint32_t id, int turn) const {
     for (std::uint32_t trip = 0;; ++trip) {
       if (static_cast<int>(3.0 * base::RandomUniform({settings_.seed, id, kDrawLink, trip, 0})) == turn) return trip;

@@ -50,18 +50,18 @@ struct Car {
 // is so not asked of the model, but read from where it was seen to go later.
 class Drive {
  public:
-  struct Moment {
+  struct Instant {
     std::vector<Car> cars;
     std::map<std::uint32_t, double> said;  // by those that drive on: the gap before them
   };
 
-  Drive(TrafficModel& model, int steps) : model_(model), parting_(model.graph().tracks().size()) {
+  Drive(TrafficModel& model, int steps) : model_(model), diverging_(model.graph().tracks().size()) {
     for (const lanes::Zone& zone : model.zones().zones()) {
       if (zone.kind == lanes::ZoneKind::kDiverge)
-        parting_[zone.track[0]].push_back({&zone, 0}), parting_[zone.track[1]].push_back({&zone, 1});
+        diverging_[zone.track[0]].push_back({&zone, 0}), diverging_[zone.track[1]].push_back({&zone, 1});
     }
     for (int i = 0; i < steps; ++i) {
-      Moment moment;
+      Instant moment;
       for (const AgentPose& pose : model.poses()) {
         const Agent& agent = model.agent(pose.id);
         moment.cars.push_back({pose.id, pose.trip, agent.o_m, 0.5 * model.traits(pose.id).length_m, pose.speed_mps,
@@ -83,14 +83,14 @@ class Drive {
     }
   }
 
-  const std::vector<Moment>& moments() const { return moments_; }
+  const std::vector<Instant>& moments() const { return moments_; }
   const lanes::Graph& graph() const { return model_.graph(); }
   // The zones in which other tracks part from one, and which of their sides that one is.
-  struct Parting {
+  struct Diverging {
     const lanes::Zone* zone;
     std::size_t side;
   };
-  const std::vector<Parting>& PartingFrom(std::uint32_t track) const { return parting_[track]; }
+  const std::vector<Diverging>& DivergingFrom(std::uint32_t track) const { return diverging_[track]; }
   const std::vector<Part>& WayOf(const Car& car) const { return ways_.at({car.id, car.trip}); }
   double EndOf(const Part& part) const { return part.zero_m + graph()[part.track].length_m(); }
   // Up to where the part is driven: where the next one begins.
@@ -100,8 +100,8 @@ class Drive {
 
  private:
   TrafficModel& model_;
-  std::vector<std::vector<Parting>> parting_;
-  std::vector<Moment> moments_;
+  std::vector<std::vector<Diverging>> diverging_;
+  std::vector<Instant> moments_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Part>> ways_;
 };
 
@@ -130,7 +130,7 @@ void EachUnder(const Drive& drive, const Car& car, const Tell& tell) {
   }
 }
 
-Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& me) {
+Verdict WhoIsAhead(const Drive& drive, const Drive::Instant& moment, const Car& me) {
   Verdict verdict;
   std::vector<std::pair<double, Found>> partings;  // with where the lane of the way begins that they part from
   const auto& way = drive.WayOf(me);
@@ -170,7 +170,7 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
           return;
         }
         // On a track that parts from this one, not clear of it yet.
-        for (const auto& [zone, side] : drive.PartingFrom(mine.track)) {
+        for (const auto& [zone, side] : drive.DivergingFrom(mine.track)) {
           if (zone->track[1 - side] != theirs.track || me.rear_m() > mine.zero_m + zone->out_m[side]) continue;
           if (other.rear_m() - theirs.zero_m >= zone->out_m[1 - side] ||
               other.front_m() - theirs.zero_m <= zone->in_m[1 - side])
@@ -209,7 +209,7 @@ Compared Compare(const std::string& name, TrafficModel& model) {
   const Drive drive(model, kSteps);
   Compared compared;
   for (int i = kFrom; i < kTo; i += kEvery) {
-    const Drive::Moment& moment = drive.moments()[static_cast<std::size_t>(i)];
+    const Drive::Instant& moment = drive.moments()[static_cast<std::size_t>(i)];
     for (const Car& me : moment.cars) {
       const auto said = moment.said.find(me.id);
       if (said == moment.said.end() || me.changing) continue;

@@ -161,7 +161,7 @@ TEST_F(AQuestion, TheWindowIsClosedWhileAFileIsAskedFor) {
 
 class WorkLeftBehind : public ADesk {
  protected:
-  // Of an editor that lives no more: the map with another scale.
+  // Of an editor that has ended: the map with another scale.
   void Leave(float scale) {
     auto keeper = editor::Keeper::Make(At("kept"));
     ASSERT_TRUE(keeper.ok());
@@ -180,7 +180,7 @@ TEST_F(WorkLeftBehind, IsOfferedAndTakenUp) {
   EXPECT_EQ(document().map.scale.value.value, 77.0f);
   EXPECT_EQ(work().session.path(), At("a.motors"));
   EXPECT_TRUE(work().session.unsaved());
-  // It is kept again at once: this editor may die too.
+  // It is kept again at once: this editor may be killed too.
   Sit();
   ASSERT_EQ(work().form, Form::kRecover);
   Press(SDL_SCANCODE_RETURN);

@@ -70,7 +70,7 @@ TEST(KeyboardSource, LampsAndHornAreInTheControlsAndOnTheCar) {
 TEST(KeyboardSource, WithoutAKeyTwoRunsAreEqual) {
   const base::Digest digest = Drive({}, 1500).outcome.digest;
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
-  // Which window speaks, and how often, is in no state: only what is held.
+  // The state holds the pressed keys; it does not hold which window sends, nor how often.
   const auto launch =
       launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
   auto nodes = cli::LocalNodes::Make(launch.value());

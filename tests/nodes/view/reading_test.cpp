@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window before its world is read: it is there, it says so, it lives.
+// A window before its world is read: it is open, says that it reads, and handles its events.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -20,7 +20,7 @@ constexpr double kMaxGroundSlope = 4.0;       // slopes beyond this are a step's
 constexpr double kOnDeck_m = 0.3;             // so much may be laid on a deck
 constexpr double kSameLevel_m = 1e-6;
 
-// Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no
+// Whether SUELO has no surface below its highest one, so that no hint finds more: on terrain of its own, where no
 // road is, or where the one that stands on the ground is what it answers from.
 bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
   if (world.network() == nullptr || world.open_drive()) return false;

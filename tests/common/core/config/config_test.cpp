@@ -122,7 +122,7 @@ TEST(Config, RefusesWhatIsNoMapping) {
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
 }
 
-// A tab is not seen in an editor; the library's own message speaks of other things.
+// A tab is not seen in an editor; the library's own message does not name it.
 TEST(Config, ATabAsIndentationIsNamedWithItsLine) {
   for (const char* text : {"a: 1\nb:\n\tc: 2\n", "b:\n  - c: 2\n\td: 3\n", "a: 1\n \tb: {c: 2}\n"}) {
     const auto file = File::Parse(text, "dir/a.yaml");

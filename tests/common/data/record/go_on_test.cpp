@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class GoOn : public testing::Test {
+class ContinuedFile : public testing::Test {
  protected:
-  GoOn()
+  ContinuedFile()
       : folder_(fs::temp_directory_path() / ("rodeira-go-on-" + std::to_string(::getpid()))),
         file_(folder_ / "a.mcap") {
     fs::create_directories(folder_);
   }
-  ~GoOn() override { fs::remove_all(folder_); }
+  ~ContinuedFile() override { fs::remove_all(folder_); }
 
   // A message each 10 ns, chunks of 100 ns.
   static WriterSettings Settings() {
@@ -69,7 +69,7 @@ class GoOn : public testing::Test {
 
 // At every byte where the first writer may have ended, its last one among them: the file becomes that of one writer
 // that wrote it all.
-TEST_F(GoOn, WhereverTheFirstOneEndedTheFileIsTheSame) {
+TEST_F(ContinuedFile, WhereverTheFirstOneEndedTheFileIsTheSame) {
   const base::Bytes whole = Whole(57);
   int gone_on = 0, closed = 0;
   for (std::size_t size = 0; size <= whole.size(); size += size + 40 < whole.size() ? 13 : 1) {
@@ -95,7 +95,7 @@ TEST_F(GoOn, WhereverTheFirstOneEndedTheFileIsTheSame) {
   EXPECT_EQ(closed, 1) << "its last words were written, but nobody may have heard that";
 }
 
-TEST_F(GoOn, WhatWasDamagedMeanwhileIsLeftAsItIs) {
+TEST_F(ContinuedFile, WhatWasDamagedMeanwhileIsLeftAsItIs) {
   base::Bytes bytes = Whole(57);
   bytes.resize(bytes.size() - 400);  // it was not closed
   bytes[bytes.size() / 2] ^= std::byte{1};
@@ -113,7 +113,7 @@ TEST_F(GoOn, WhatWasDamagedMeanwhileIsLeftAsItIs) {
 }
 
 // As a log's message that comes after later samples have gone to the disk.
-TEST_F(GoOn, ALastChunkOfEarlierMessagesIsNoDamage) {
+TEST_F(ContinuedFile, ALastChunkOfEarlierMessagesIsNoDamage) {
   auto writer = McapWriter::Open(folder_ / "late.mcap", Settings());
   ASSERT_TRUE(writer.ok());
   ASSERT_TRUE(WriteFrom(writer.value(), 0, 57).ok() && writer.value().Sync().ok());
@@ -128,7 +128,7 @@ TEST_F(GoOn, ALastChunkOfEarlierMessagesIsNoDamage) {
   EXPECT_EQ(std::ssize(handed_), 58);
 }
 
-TEST_F(GoOn, AFileWithoutAChunkHoldsNothing) {
+TEST_F(ContinuedFile, AFileWithoutAChunkHoldsNothing) {
   ASSERT_TRUE(McapWriter::Open(file_, Settings()).ok());
   auto writer = Go(0);
   ASSERT_TRUE(writer.ok());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rodeira-test-shared-process: as rodeira-nodes, with empty nodes, recorders and a road server that knows no road. It
+// rodeira-test-shared-process: as rodeira-nodes, with empty nodes, recorders and a road server without roads. It
 // links little, so that it is built under every sanitizer.
 #include "common/runtime/dds/run.hpp"
 #include "idl/codec.hpp"

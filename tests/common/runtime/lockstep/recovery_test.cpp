@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A part of a run dies at any moment: what the others see and what is recorded is that of a run without deaths.
+// A part of a run is killed at any moment: the other parts and the recording get the samples of a run without losses.
 #include "common/runtime/lockstep/recovery.hpp"
 
 #include <gmock/gmock.h>
@@ -273,7 +273,7 @@ TEST_F(RecoveryOfOne, AClockThatIsStartedAgainSaysWhereNodesGoOnOnceItHasHeardAl
   EXPECT_EQ(clock.grant().resume, 70);
 }
 
-// A stopped node may hear only when it goes on what the lost clock has granted last.
+// A stopped node may receive the lost clock's last grant only when it goes on.
 TEST_F(RecoveryOfOne, AClockThatIsStartedAgainLearnsAlsoLaterWhatWasGranted) {
   const Roster roster = Make(true);
   Clock clock(roster, 1000, 0, {Policy::kRestart, Policy::kRestart});

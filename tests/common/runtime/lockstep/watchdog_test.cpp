@@ -159,7 +159,8 @@ TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
   EXPECT_THAT(fault->reason, Names("node 'car' … 3.05 s … step 7: "));
 }
 
-// On a PC with too much work the clock comes late again and again: what it did not hear then is no node's silence.
+// On a PC with too much work the clock is late repeatedly: reports that it did not receive then are no silence of a
+// node.
 TEST_F(WatchdogTest, ForgivesWhatTheClockHadNoProcessorFor) {
   Hear(0, 0);
   Hear(1, 0);

@@ -121,7 +121,7 @@ TEST(BicycleLateral, LoadTransferIsMAHOverT) {
   double side = 0.0;
   for (const auto& wheel : s.wheels) side += wheel.lateral_N;
   EXPECT_NEAR(side, settings.body.mass_kg * ay, 0.02 * side);
-  EXPECT_LT(s.steering_torque_Nm, 0.0);  // it wants back to the middle
+  EXPECT_LT(s.steering_torque_Nm, 0.0);  // towards the middle
 }
 
 // A banked bend: with v² / R = g tan(bank) no side force is needed.

@@ -22,10 +22,10 @@ constexpr double kStep = 0.001;
 // Nothing but air and what they hit acts along the ground.
 PlaneGround Slippery() { return PlaneGround(Eigen::Vector3d::Zero(), 0.0, 0.0, 1e-9); }
 
-class Struck : public ::testing::TestWithParam<ModelCase> {};
+class Collided : public ::testing::TestWithParam<ModelCase> {};
 
 // A push through a quarter of a second, and gone after it: m dv = F t, less what the air took.
-TEST_P(Struck, APushGivesItsImpulse) {
+TEST_P(Collided, APushGivesItsImpulse) {
   auto car = MakeModel(GetParam());
   auto ground = Slippery();
   ASSERT_TRUE(car->can_be_pushed());
@@ -41,7 +41,7 @@ TEST_P(Struck, APushGivesItsImpulse) {
 }
 
 // Against a wall: the impulses of the touch are the momentum that the car loses and gets back.
-TEST_P(Struck, AWallTakesItsMomentumAndGivesSomeBack) {
+TEST_P(Collided, AWallTakesItsMomentumAndGivesSomeBack) {
   auto car = MakeModel(GetParam());
   auto ground = Slippery();
   const CollisionSpace space(car->dimensions(), {});
@@ -74,7 +74,7 @@ TEST_P(Struck, AWallTakesItsMomentumAndGivesSomeBack) {
 
 // Against a standing box of known mass on the same ground: momentum stays, energy falls, and what they part with is the
 // oscillator's share of what they met with (its mass is m1 m2 / (m1 + m2)).
-TEST_P(Struck, AStandingBoxIsPushedAwayAndMomentumStays) {
+TEST_P(Collided, AStandingBoxIsPushedAwayAndMomentumStays) {
   auto car = MakeModel(GetParam());
   auto ground = Slippery();
   CollisionSettings settings;
@@ -105,7 +105,7 @@ TEST_P(Struck, AStandingBoxIsPushedAwayAndMomentumStays) {
 }
 
 // What a snapshot in the middle of a touch does not hold would show here.
-TEST_P(Struck, RestoredWhileTouchingItGoesOnWithTheSameBits) {
+TEST_P(Collided, RestoredWhileTouchingItGoesOnWithTheSameBits) {
   auto first = MakeModel(GetParam()), second = MakeModel(GetParam());
   PlaneGround ground;
   const CollisionSpace space(first->dimensions(), {});
@@ -129,7 +129,7 @@ TEST_P(Struck, RestoredWhileTouchingItGoesOnWithTheSameBits) {
   ExpectTheSameBitsFromASnapshot(*first, *second, 1000, [&](VehicleModel& car, int) { (void)step(car); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Struck, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
+INSTANTIATE_TEST_SUITE_P(Models, Collided, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
 
 // Turned over slowly by a moment about its long axis, the car comes to rest on its side or roof, above the ground.
 class Overturned : public ::testing::TestWithParam<ModelCase> {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A beginner at the keyboard, a person who knows no angles, only keys that are down or up, keep the lane of a winding
+// A beginner at the keyboard, a person with keys that are down or up, without angles, keep the lane of a winding
 // road.
 #include <gtest/gtest.h>
 

@@ -74,7 +74,7 @@ void ExpectSame(const Eigen::Vector2f& found, const Eigen::Vector2d& expected) {
   EXPECT_NEAR(apart.y(), std::round(apart.y()), 1e-3);
 }
 
-// A thousandth of a picture at 5 000 km from the origin, though float32 knows no half metre there.
+// A thousandth of a picture at 5 000 km from the origin, though float32 has no half metre there.
 TEST(Pictures, ARepeatedOneIsWholePicturesAwayFarFromTheOrigin) {
   for (const double x : {0.0, 5e6}) {
     const auto world = Plane(", texture: {file: fields.png, repeat_m: 64}", "", x);

@@ -46,8 +46,8 @@ TEST(Progress, TheShareNeverFallsAndIsWholeAtLast) {
   }
 }
 
-// The waiting part hears of a tile at least as often as this thread has built one; with 6 of them none is a leap to the
-// end.
+// The waiting part is told of a tile at least as often as this thread has built one; with 6 of them none is a leap to
+// the end.
 TEST(Progress, ItGoesTileByTile) {
   WorldScene scene;
   const Heard heard = ShareOf("lights.yaml", &scene);

@@ -74,7 +74,7 @@ TEST(StandingWorld, WhereThereIsNoTerrainNothingStands) {
   EXPECT_EQ(problem("  - {type: tree, along: [[10, 10], [10, 410]], every_m: 5}\n"),
             "made.yaml:5: there is no terrain at (10, 410)");
   EXPECT_EQ(problem("  - {type: wall, along: [[10, 10], [-1, 10]]}\n"), "made.yaml:5: there is no terrain at (-1, 10)");
-  // A plane has no edge; a file of version 1 knows no such list.
+  // A plane has no edge; a file of version 1 has no such list.
   EXPECT_TRUE(
       World::Parse("rodeira: world/2\nname: w\nground: {kind: plane}\nobjects: [{type: tree, x_m: 90000, y_m: 3}]\n",
                    "made.yaml")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `rodeira traffic run` writes, file by file, and which wishes it refuses.
+// What `rodeira traffic run` writes, file by file, and which requests it refuses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

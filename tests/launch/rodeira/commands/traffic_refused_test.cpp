@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which wishes `rodeira traffic run` refuses, before anything drives.
+// Which requests `rodeira traffic run` refuses, before anything drives.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording is driven on from any moment: its past is the parent's to the bit, its future its own.
+// A branch continues a recording from any step: up to there its samples are the parent's, bit for bit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -79,14 +79,14 @@ TEST_F(BranchTest, ABranchStoppedAtOnceSaysSo) {
   }
 }
 
-// What the parent's clock and operator said up to there, and the branch's own from there on.
-TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
+// Marks and wall times are those of the parent up to the branch's first step, and the branch's own from there on.
+TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfParentAndBranch) {
   const std::string file = Drive();
   BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
   int asked = 0;
   std::string marked;
   wish.next_command = [&]() -> std::optional<lockstep::Asked> {
-    // Again and again until the branch has begun; it is asked until nothing comes.
+    // The mark is sent again until the branch has begun. The run reads commands until none comes.
     if (++asked % 2 == 0 || marked.starts_with("marked step ")) return std::nullopt;
     lockstep::Command mark;
     mark.kind = lockstep::Command::Kind::kMark;
