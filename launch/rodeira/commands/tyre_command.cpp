@@ -174,9 +174,8 @@ void PrintTable(const TyreSettings& tyre, const dynamics::TyreFile& file, const 
 plot::Table PointTable(TyreSettings tyre, const dynamics::TyreFile& file) {
   const double nominal_N = file.nominal_N;
   constexpr std::uint32_t kTablePoints = 1000, kSeed = 1;
-  plot::Table table{{"kappa", "tan_alpha", "camber_rad", "load_N", "pressure_Pa", "longitudinal_N", "lateral_N",
-                     "aligning_Nm"},
-                    {}};
+  plot::Table table{
+      {"kappa", "tan_alpha", "camber_rad", "load_N", "pressure_Pa", "longitudinal_N", "lateral_N", "aligning_Nm"}, {}};
   const bool is_formula = tyre.model == nullptr;
   const double highest_N = is_formula ? std::min(1.6 * nominal_N, tyre.formula.fzmax) : 1.6 * nominal_N;
   for (std::uint32_t i = 0; i < kTablePoints; ++i) {
