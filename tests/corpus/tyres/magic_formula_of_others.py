@@ -11,6 +11,8 @@ import subprocess
 PARTS = ("src/solver/Fx0.jl", "src/solver/Fy0.jl", "src/solver/combined_slip.jl", "src/solver/Mz.jl")
 FUNCTIONS = ("calc_Fx0", "calc_Fy0", "calc_Fx", "calc_Fy", "calc_Mz0", "calc_Mz")
 # What calls other functions of it, or packs values for them, is done by Model.
+# Of the residual moment it takes the cosine of tan(alpha), where Pacejka's book (2012, 4.E47) has that of alpha.
+COSINE = ("cos(alpha_star)", "cos(alpha_prime)")
 CALLS = re.compile(r"(Fy0_g0, |_, Gyk_g0|ip_nots = |ints = |Mz = if fittyp)")
 OLD, NEW = (6, 21), (61, 62)  # FITTYP that it knows
 
@@ -39,6 +41,7 @@ def joined(lines):
 
 
 def expression(text):
+    text = text.replace(*COSINE)
     text = re.sub(r"\bif (.*?) (.*?) else (.*?) end", r"(\2 if \1 else \3)", text.replace("^", "**"))
     while "?" in text:  # innermost first: a ? b : c
         changed = re.sub(r"\(([^()?]*(?:\([^()]*\))?[^()?]*)\?([^?:]*):([^?:()]*(?:\([^()]*\))?[^?:()]*)\)",
