@@ -114,7 +114,7 @@ CentreDifferentialSettings ReadCentreDifferential(const Map& given) {
   centre.plates.preload_Nm = map.Number("preload_Nm");
   centre.plates.locking_drive = map.Number("locking_drive");
   centre.plates.locking_overrun = map.Number("locking_overrun");
-  for (const char* key : {"front_share", "preload_Nm", "locking_drive", "locking_overrun"})
+  for (const char* key : {"preload_Nm", "locking_drive", "locking_overrun"})
     if (centre.locked && given.Has(key))
       given.Problem(key, "vehicle.locked_with_plates",
                     fmt::format("'{}' does nothing where 'locked' is true: only one of them was expected", key));
