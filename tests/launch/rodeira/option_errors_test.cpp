@@ -97,8 +97,8 @@ TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
   EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}),
               HasSubstr("rodeira polyline rotate: --about: 1 value was found; 2 were expected (see 'rodeira polyline "
                         "rotate --help')\n"));
-  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}),
-              HasSubstr("rodeira traffic run: --step: '0.5' was found; a number from 0.001 to 0.1 was expected (see "
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "1.5"}),
+              HasSubstr("rodeira traffic run: --step: '1.5' was found; a number from 0.001 to 1 was expected (see "
                         "'rodeira traffic run --help')\n"));
 }
 
