@@ -25,7 +25,7 @@ double Ask(double (*function)(double), double x) {
 
 constexpr std::uint64_t kArguments = 3000;
 
-Digest AskLibrary() {
+Digest ComputeFingerprint() {
   using Function = double (*)(double);
   const Function functions[] = {std::sin, std::cos,   std::tan,  std::asin, std::acos, std::atan, std::exp,  std::exp2,
                                 std::log, std::log10, std::log2, std::sinh, std::cosh, std::tanh, std::sqrt, std::cbrt};
@@ -55,7 +55,7 @@ Digest AskLibrary() {
 }  // namespace
 
 Digest MathLibraryFingerprint() {
-  static const Digest digest = AskLibrary();  // the library of a process does not change
+  static const Digest digest = ComputeFingerprint();  // the library of a process does not change
   return digest;
 }
 

@@ -95,7 +95,7 @@ class ClockProcess {
     });
     if (!other) return other.error();
     others_ = std::move(other).value();
-    if (options_.incarnation == 0 && !IsKnownAsOnly()) std::this_thread::sleep_for(300ms);
+    if (options_.incarnation == 0 && !IsOnlyClock()) std::this_thread::sleep_for(300ms);
     if (other_clock_ != 0) return SecondClock();
     auto reports = participant.MakeReader(topics::kReport, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) {
       const std::lock_guard lock(mutex_);
@@ -117,7 +117,7 @@ class ClockProcess {
   }
   // `rodeira run`, which listens on the other end of the pipe, holds name and domain of its run on this PC; nothing
   // from another PC comes by shared memory.
-  bool IsKnownAsOnly() const {
+  bool IsOnlyClock() const {
     const auto& transport = run_.launch.transport_settings();
     return options_.listen && transport.kind == launch::Transport::kSharedMemory && !transport.has_observers;
   }

@@ -21,9 +21,9 @@ namespace {
 constexpr std::uint64_t kKib = 1024;
 // Measured with Fast DDS 2.9.1: a segment's file is 193 KiB larger than its size (512 to 8192 KiB); a port of 4096
 // messages has 122 KiB, and a process makes two and its share of the common ones.
-constexpr std::uint64_t kBesideSegmentKib = 196, kPortsKib = 3 * 128;
+constexpr std::uint64_t kSegmentOverheadKib = 196, kPortsKib = 3 * 128;
 
-std::uint64_t FileOfSegment(std::uint32_t segment_kib) { return (segment_kib + kBesideSegmentKib) * kKib; }
+std::uint64_t SegmentFileBytes(std::uint32_t segment_kib) { return (segment_kib + kSegmentOverheadKib) * kKib; }
 
 base::Error NoRoom(const std::filesystem::path& folder, const std::string& why) {
   return base::Failed("dds.shared_memory_full",
@@ -48,7 +48,7 @@ std::optional<std::string> SegmentIn(const std::string& line) {
 
 }  // namespace
 
-std::uint64_t SharedMemoryNeed(std::uint32_t segment_kib) { return FileOfSegment(segment_kib) + kPortsKib * kKib; }
+std::uint64_t SharedMemoryNeed(std::uint32_t segment_kib) { return SegmentFileBytes(segment_kib) + kPortsKib * kKib; }
 
 base::Result<std::uint64_t> FreeSharedMemory(const std::filesystem::path& folder) {
   struct statvfs info {};
@@ -90,7 +90,7 @@ base::Status ClaimOwnSegment() {
 }
 
 base::Status CheckAddressSpace(std::uint32_t segment_kib) {
-  const std::size_t bytes = FileOfSegment(segment_kib);
+  const std::size_t bytes = SegmentFileBytes(segment_kib);
   void* const place = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (place != MAP_FAILED) {
     ::munmap(place, bytes);

@@ -82,9 +82,10 @@ TEST(Reaction, StopIsLongerByTheSpeedTimesTheReactionTime) {
   }
 }
 
-// The fastest growth of a small disturbance of the IDM at equilibrium where gap and leader are seen τ late: every car n
-// waves exp(i k n + λ t), k = 2π j / N: λ² - (f_v + f_l e^{-ik-λτ}) λ + f_s (1 - e^{-ik}) e^{-λτ} = 0. The roots are
-// followed from τ = 0 on.
+// The fastest growth of a small disturbance of the IDM at equilibrium where gap and leader are seen τ late. Every
+// car n waves exp(i k n + λ t) with k = 2π j / N, and
+//   λ² - (f_v + f_l e^{-ik-λτ}) λ + f_s (1 - e^{-ik}) e^{-λτ} = 0.
+// The roots are followed from τ = 0 on.
 double GrowthRate(const driver::IdmSettings& idm, const Equilibrium& at, std::size_t cars, double reaction_s) {
   const double a = idm.acceleration_mps2, s = at.gap_m, v = at.speed_mps, root = 2.0 * std::sqrt(a * idm.braking_mps2);
   const double wanted = idm.standing_gap_m + v * idm.time_gap_s;
