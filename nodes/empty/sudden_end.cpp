@@ -29,6 +29,15 @@ std::uint64_t AddressSpace_bytes() {
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+// Until a control group's limit is reached, but at most 2 GiB.
+void FillMemory() {
+  std::vector<std::unique_ptr<char[]>> pieces(2048);
+  for (auto& piece : pieces) {
+    piece = std::make_unique<char[]>(kPiece_bytes);
+    std::memset(piece.get(), 1, kPiece_bytes);
+  }
+}
+
 [[noreturn]] void RunOutOfMemory() {
   const rlimit limit{AddressSpace_bytes() + kRoom_bytes, AddressSpace_bytes() + kRoom_bytes};
   RODEIRA_ASSERT(::setrlimit(RLIMIT_AS, &limit) == 0);
@@ -44,7 +53,8 @@ std::uint64_t AddressSpace_bytes() {
 SuddenEnd SuddenEnd::Read(const config::Map& config) {
   SuddenEnd end;
   end.step_ = config.Integer("end_at_step", -1, INT64_MAX, -1);
-  end.cause_ = config.Choice("end_by", {"failure", "exit_0", "exit_1", "exception", "assertion", "memory"}, "failure");
+  end.cause_ = config.Choice(
+      "end_by", {"failure", "exit_0", "exit_1", "exception", "assertion", "memory", "memory_of_group"}, "failure");
   end.once_ = config.Text("end_once", "");
   return end;
 }
@@ -55,6 +65,7 @@ base::Status SuddenEnd::At(lockstep::Step step) const {
   if (cause_ == "exit_1") std::_Exit(1);
   if (cause_ == "exception") throw std::runtime_error("told to throw here by its configuration (end_by)");
   if (cause_ == "memory") RunOutOfMemory();
+  if (cause_ == "memory_of_group") FillMemory();
   RODEIRA_ASSERT(cause_ != "assertion");
   return base::Failed("node.told_to_fail", "told to fail here by its configuration (end_by)");
 }

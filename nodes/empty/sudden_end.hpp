@@ -14,7 +14,8 @@ namespace rodeira::nodes {
 // real processes.
 class SuddenEnd {
  public:
-  // Keys: `end_at_step` (-1: never); `end_by`: failure, exit_0, exit_1, exception, assertion or memory; `end_once`: a
+  // Keys: `end_at_step` (-1: never); `end_by`: failure, exit_0, exit_1, exception, assertion, memory (of the
+  // process) or memory_of_group (of its control group); `end_once`: a
   // file that is made at the end, and while it is there the node goes on (a restarted one does).
   static SuddenEnd Read(const config::Map& config);
 

@@ -33,7 +33,7 @@ using namespace std::chrono_literals;
 constexpr std::array kPolicies = {"stop", "pause", "restart"};
 constexpr auto kPatience = 200s;  // no promise: a run ends late where other tests take the processors
 
-enum class What { kUnplug, kLosePower, kShutDown };
+enum class What { kUnplug, kLosePower, kShutDown, kKillFrontDoor };
 struct Cause {
   std::string in_table;
   int host = 1;
@@ -47,7 +47,10 @@ const std::map<std::string, Cause> kCauses = {
     {"CableAMinute", {"right: cable pulled for 60 s", 1, What::kUnplug, 60s}},
     {"RightLosesPower", {"right: no power", 1, What::kLosePower}},
     {"LeftLosesPower", {"left: no power", 0, What::kLosePower}},
-    {"LeftShutsDown", {"left: shut down, started again", 0, What::kShutDown}}};
+    {"LeftShutsDown", {"left: shut down, started again", 0, What::kShutDown}},
+    {"RightShutsDown", {"right: shut down", 1, What::kShutDown}},
+    {"LeftFrontDoorIsKilled", {"left: rodeira run killed", 0, What::kKillFrontDoor}},
+    {"RightFrontDoorIsKilled", {"right: rodeira run killed", 1, What::kKillFrontDoor}}};
 
 std::vector<EndsRow> ReadRows() {
   return EndsRowsOf(
@@ -112,6 +115,10 @@ class TwoHosts : public testing::Test {
     return false;
   }
   void Cause(const struct Cause& cause, const std::array<std::unique_ptr<Started>, 2>& pcs) {
+    if (cause.what == What::kKillFrontDoor) {
+      ::kill(pcs[cause.host]->pid(), SIGKILL);
+      return;
+    }
     if (cause.what != What::kShutDown) rig_->Unplug(cause.host);
     if (cause.what != What::kUnplug) {
       for (const pid_t pid : ProcessesOf(cause.host, *pcs[cause.host]))
@@ -199,7 +206,8 @@ TEST_F(TwoHosts, ANodeIsStartedAgainOnceItsInterfaceRuns) {
 
 INSTANTIATE_TEST_SUITE_P(Causes, HostsEnds,
                          testing::Values("CableOneSecond", "CableFiveSeconds", "CableAMinute", "RightLosesPower",
-                                         "LeftLosesPower", "LeftShutsDown"),
+                                         "LeftLosesPower", "LeftShutsDown", "RightShutsDown", "LeftFrontDoorIsKilled",
+                                         "RightFrontDoorIsKilled"),
                          [](const auto& cause) { return cause.param; });
 
 }  // namespace

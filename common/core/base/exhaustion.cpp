@@ -19,23 +19,14 @@ namespace {
 std::string g_program;
 std::terminate_handler g_other = nullptr;
 
-// Without memory of the heap, of which there may be none left.
-[[noreturn]] void EndWith(std::string_view sentence) {
-  constexpr std::string_view kRecording = "; `rodeira repair` completes a recording that was being written\n";
-  for (const std::string_view part : {std::string_view(g_program), std::string_view(": "), sentence, kRecording}) {
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part.data(), part.size());
-  }
-  ::_exit(1);
-}
-
 [[noreturn]] void OnTerminate() {
   if (const std::exception_ptr thrown = std::current_exception()) {
     try {
       std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      EndWith(kNoMemoryText);
+      EndExhausted(kNoMemoryText);
     } catch (const std::system_error& error) {
-      if (error.code() == std::errc::resource_unavailable_try_again) EndWith(kNoThreadText);
+      if (error.code() == std::errc::resource_unavailable_try_again) EndExhausted(kNoThreadText);
     } catch (...) {
     }
   }
@@ -44,6 +35,15 @@ std::terminate_handler g_other = nullptr;
 }
 
 }  // namespace
+
+void EndExhausted(std::string_view sentence) {
+  // Without memory of the heap, of which there may be none left.
+  constexpr std::string_view kRecording = "; `rodeira repair` completes a recording that was being written\n";
+  for (const std::string_view part : {std::string_view(g_program), std::string_view(": "), sentence, kRecording}) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part.data(), part.size());
+  }
+  ::_exit(1);
+}
 
 void NameExhaustion(std::string_view program) {
   g_program = program;

@@ -10,4 +10,8 @@ namespace rodeira::base {
 // aborts as before. Call it once, from main. The sentence begins with the program's name.
 void NameExhaustion(std::string_view program);
 
+// Ends the process at once with the program's name and `sentence` on standard error and exit status 1: for a library
+// that waits without end for what this machine does not give it. Any thread.
+[[noreturn]] void EndExhausted(std::string_view sentence);
+
 }  // namespace rodeira::base

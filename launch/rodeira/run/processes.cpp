@@ -15,6 +15,8 @@
 #include <string>
 #include <utility>
 
+#include "launch/rodeira/run/memory_kills.hpp"
+
 namespace rodeira::cli {
 namespace {
 
@@ -48,6 +50,7 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid();
+  const std::uint64_t memory_kills = MemoryKills();
   const pid_t pid = ::fork();
   if (pid < 0) {
     const int error = errno;
@@ -74,6 +77,7 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
   Child child;
   child.name_ = name;
   child.pid_ = pid;
+  child.memory_kills_at_start_ = memory_kills;
   if (with_pipes) {
     child.in_ = std::exchange(to_child.in, -1);
     child.out_ = std::exchange(from_child.out, -1);
@@ -103,6 +107,8 @@ Child& Child::operator=(Child&& other) noexcept {
   stop_signal_ = other.stop_signal_;
   kill_signal_ = other.kill_signal_;
   exit_status_ = other.exit_status_;
+  memory_kills_at_start_ = other.memory_kills_at_start_;
+  memory_ended_ = other.memory_ended_;
   return *this;
 }
 
@@ -148,10 +154,11 @@ void Child::Poll() {
       if (WIFEXITED(status)) exit_status_ = WEXITSTATUS(status);
       if (WIFSIGNALED(status)) kill_signal_ = WTERMSIG(status);
       if (error_ >= 0) log_->Read(error_);
-      return;
+      break;
     }
   }
-  if (kill_signal_ == 0) kill_signal_ = KilledBy(pid_);
+  if (!ended_ && kill_signal_ == 0) kill_signal_ = KilledBy(pid_);
+  if (kill_signal_ == SIGKILL) memory_ended_ = MemoryKills() != memory_kills_at_start_;
 }
 
 void Child::Signal(int number) const {
@@ -161,7 +168,9 @@ void Child::Signal(int number) const {
 std::string Child::Fate() const {
   const std::string place = log_ == nullptr || log_->crash_place().empty() ? "" : " in " + log_->crash_place();
   if (kill_signal_ != 0)
-    return fmt::format("was killed by signal {} ({}){}", kill_signal_, ::strsignal(kill_signal_), place);
+    return fmt::format("was killed by signal {} ({}{}){}", kill_signal_, ::strsignal(kill_signal_),
+                       memory_ended_ ? "; the kernel has killed for lack of memory since this part started" : "",
+                       place);
   if (exit_status_ == 127) return "could not be started";
   if (exit_status_) return fmt::format("left with status {}{}", *exit_status_, place);
   if (stopped_) return fmt::format("was stopped by signal {} ({})", stop_signal_, ::strsignal(stop_signal_));

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,8 @@ class Child {
   int stop_signal_ = 0;
   int kill_signal_ = 0;
   std::optional<int> exit_status_;
+  std::uint64_t memory_kills_at_start_ = 0;
+  bool memory_ended_ = false;  // killed, and the kernel has killed for lack of memory since it was started
 };
 
 }  // namespace rodeira::cli

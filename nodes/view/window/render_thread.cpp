@@ -4,8 +4,10 @@
 #include <SDL.h>
 
 #include <chrono>
+#include <string_view>
 #include <utility>
 
+#include "common/core/base/exhaustion.hpp"
 #include "common/core/base/wait.hpp"
 #include "nodes/view/frame/png.hpp"
 #include "nodes/view/run_connection/asker.hpp"
@@ -16,6 +18,11 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr std::size_t kMaxOrders = 32;
+// Mesa's llvmpipe waits for ever for its threads where it cannot start one. Else a context takes seconds at most.
+constexpr std::chrono::seconds kSurfaceLimit{60};
+constexpr std::string_view kNoSurfaceText =
+    "OpenGL is not open after 60 s: a driver that gets no thread or memory waits for ever (ulimit -u, the container's "
+    "limits)";
 
 }  // namespace
 
@@ -47,7 +54,10 @@ base::Result<std::unique_ptr<RenderThread>> RenderThread::Open(const ViewSetting
   {
     const base::WaitNote note("the view's window and its world");
     std::unique_lock lock(render_thread->mutex_);
-    render_thread->changed_.wait(lock, [&] { return render_thread->ready_; });
+    const auto is_ready = [&] { return render_thread->ready_; };
+    if (!render_thread->changed_.wait_for(lock, kSurfaceLimit, is_ready) && !render_thread->surface_open_)
+      base::EndExhausted(kNoSurfaceText);
+    render_thread->changed_.wait(lock, is_ready);
     if (!render_thread->set_up_) return render_thread->set_up_.error();
     if (!render_thread->nothing_to_draw_) return render_thread;
   }
@@ -151,6 +161,10 @@ base::Status RenderThread::OpenSurfaceFor(std::unique_ptr<Surface>& surface) con
 
 base::Status RenderThread::ReadFirst(std::unique_ptr<Surface>& surface, std::filesystem::path& built) {
   if (auto status = OpenSurfaceFor(surface); !status) return status;
+  {
+    const std::lock_guard lock(mutex_);
+    surface_open_ = true;
+  }
   auto shown = ReadBefore(surface.get(), reader_);
   if (!shown) return shown.error();
   world_ = std::move(shown.value().world);

@@ -80,6 +80,7 @@ class RenderThread {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
+  bool surface_open_ = false;
   bool ready_ = false;
   base::Status set_up_;
   bool quit_ = false;

@@ -28,6 +28,16 @@ TEST(Exhaustion, OfMemoryAndThreadsIsASentenceAndStatus1OnAnyThread) {
               "^rodeira-test: no further thread can be started");
 }
 
+TEST(Exhaustion, WhereALibraryWaitsForEverIsTheSentenceOfTheCaller) {
+  ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        NameExhaustion("rodeira-test");
+        EndExhausted("a library waits");
+      },
+      ::testing::ExitedWithCode(1), "^rodeira-test: a library waits; `rodeira repair`");
+}
+
 TEST(Exhaustion, AnotherExceptionAborts) {
   ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(ThrowOnAThread(std::logic_error("odd")), ::testing::KilledBySignal(SIGABRT), "odd");
