@@ -175,9 +175,9 @@ def roundabout(folder):
     write(folder, "x.edg.xml",
           "<edges>" + "".join(edges) + "<roundabout nodes=\"r0 r1 r2 r3\" edges=\"ring0 ring1 ring2 ring3\"/></edges>")
     run(folder, "netconvert", "-n", "x.nod.xml", "-e", "x.edg.xml", "--no-turnarounds", "-o", "net.xml")
-    for wish in (0, 200, 400, 600, 800, 1000, 1200):
-        flow = f'<flow id="past" route="past" begin="0" end="1200" vehsPerHour="{wish}" departSpeed="max"/>'
-        past = flow if wish else ""
+    for past_per_h in (0, 200, 400, 600, 800, 1000, 1200):
+        flow = f'<flow id="past" route="past" begin="0" end="1200" vehsPerHour="{past_per_h}" departSpeed="max"/>'
+        past = flow if past_per_h else ""
         write(
             folder, "routes.xml",
             '<routes><route id="past" edges="in0 ring0 ring1 out2"/><route id="queue" edges="in1 ring1 out2"/>' + past
@@ -286,15 +286,15 @@ def main():
             networks(pathlib.Path(folder), str(pathlib.Path(options.rodeira).resolve()), options.only,
                      ["--settings", str(pathlib.Path(options.settings).resolve())] if options.settings else [])
         return
-    wishes = {"four": four, "town": town, "queue": queue, "turn": turn, "roundabout": roundabout}
-    asked = sys.argv[1:] or list(wishes)
-    for wish in asked:
-        if wish not in wishes:
-            sys.exit(f"compare_sumo.py: '{wish}' was asked for; {', '.join(wishes)} were expected")
+    studies = {"four": four, "town": town, "queue": queue, "turn": turn, "roundabout": roundabout}
+    asked = sys.argv[1:] or list(studies)
+    for name in asked:
+        if name not in studies:
+            sys.exit(f"compare_sumo.py: '{name}' was asked for; {', '.join(studies)} were expected")
     need_sumo()
-    for wish in asked:
+    for name in asked:
         with tempfile.TemporaryDirectory() as folder:
-            wishes[wish](pathlib.Path(folder))
+            studies[name](pathlib.Path(folder))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@
 
 namespace rodeira::traffic {
 
-void Obey(TrafficModel& model, std::uint32_t id, OrderKind kind, double value) {
+void ApplyOrder(TrafficModel& model, std::uint32_t id, OrderKind kind, double value) {
   switch (kind) {
     case OrderKind::kBrake:
       model.Brake(id, value);
@@ -98,7 +98,7 @@ void PlaceOrders::After(TrafficModel& model) {
   const auto done = [&](const PlaceOrder& order) {
     for (std::uint32_t id = 0; id < seen_.size(); ++id) {
       if ((order.whom == PlaceOrder::Whom::kOne && order.id != id) || !passes(order, id)) continue;
-      Obey(model, id, order.kind, order.value);
+      ApplyOrder(model, id, order.kind, order.value);
       if (order.whom != PlaceOrder::Whom::kAll) return true;
     }
     return false;

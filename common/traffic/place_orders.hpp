@@ -19,7 +19,7 @@ enum class OrderKind : std::uint8_t { kBrake = 0, kSpeed = 1, kRelease = 2, kOve
 bool IsSound(OrderKind kind, double value);
 
 // Told at once.
-void Obey(TrafficModel& model, std::uint32_t id, OrderKind kind, double value);
+void ApplyOrder(TrafficModel& model, std::uint32_t id, OrderKind kind, double value);
 
 // What agents are told when they come to a place: as soon as the middle of one has passed a station of a road,
 // whichever way it drives there.

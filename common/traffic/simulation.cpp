@@ -77,11 +77,11 @@ void Simulation::LeaveOrSlide(double dt_s) {
     store.missed += step.missed_now[id];
     if (step.ends[id]) entering.Leave(id);
   }
-  RemoveAsked();
+  RemoveRequested();
   crashes.StepCrashed(dt_s);
 }
 
-void Simulation::RemoveAsked() {
+void Simulation::RemoveRequested() {
   if (step.removals.empty()) return;
   for (const std::uint32_t id : step.removals) {
     std::erase_if(store.appearing, [id](const SpawningVehicle& next) { return next.id == id; });

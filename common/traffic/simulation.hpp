@@ -124,7 +124,7 @@ struct Simulation : TrafficData {
   void Overtake(std::int64_t step_ns);
   void Accelerate(double dt_s);
   void LeaveOrSlide(double dt_s);
-  void RemoveAsked();
+  void RemoveRequested();
   void Enter(std::int64_t step_ns);
   void Show(std::int64_t step_ns);
 };

@@ -87,32 +87,32 @@ void NewMap(Work& work) {
 }
 
 void AskToOpen(Work& work) {
-  work.files.Ask("Open a map", {".motors"}, false, Start(work, ""), [&work](const std::filesystem::path& path) {
+  work.files.Open("Open a map", {".motors"}, false, Start(work, ""), [&work](const std::filesystem::path& path) {
     StopTraffic(work);
     if (work.session.Open(path)) ShowAll(work);
   });
 }
 
 void AskToSave(Work& work, bool despite_errors, const Action& then) {
-  work.files.Ask(despite_errors ? "Save a draft" : "Save the map", {".motors"}, true, Start(work, "map.motors"),
-                 [&work, despite_errors, then](const std::filesystem::path& path) {
-                   if (work.session.Save(path, despite_errors) && then) then(work);
-                 });
+  work.files.Open(despite_errors ? "Save a draft" : "Save the map", {".motors"}, true, Start(work, "map.motors"),
+                  [&work, despite_errors, then](const std::filesystem::path& path) {
+                    if (work.session.Save(path, despite_errors) && then) then(work);
+                  });
 }
 
 void AskToImport(Work& work) {
-  work.files.Ask("Import a background", {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}, false,
-                 Start(work, "").parent_path() / "", [&work](const std::filesystem::path& path) {
-                   auto bytes = editor::ImportPicture(path);
-                   if (!bytes) return work.session.Say(bytes.error().Text(), false);
-                   work.session.SetPicture(std::move(bytes).value(), work.session.document().map.scale.value.value);
-                 });
+  work.files.Open("Import a background", {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}, false,
+                  Start(work, "").parent_path() / "", [&work](const std::filesystem::path& path) {
+                    auto bytes = editor::ImportPicture(path);
+                    if (!bytes) return work.session.Say(bytes.error().Text(), false);
+                    work.session.SetPicture(std::move(bytes).value(), work.session.document().map.scale.value.value);
+                  });
 }
 
 void AskToExport(Work& work) {
   std::filesystem::path start = Start(work, "map.motors");
   start.replace_extension(".yaml");
-  work.files.Ask("Export as a world", {".yaml", ".xodr"}, true, start, [&work](const std::filesystem::path& path) {
+  work.files.Open("Export as a world", {".yaml", ".xodr"}, true, start, [&work](const std::filesystem::path& path) {
     const auto exported = editor::Export(work.session.document(), path);
     work.session.Say(exported ? exported.value() : "not exported: " + exported.error().Text(), exported.ok());
   });

@@ -51,7 +51,7 @@ int EditorApp::wait_ms() const {
 
 bool EditorApp::Frame(int wait_ms, window::Image* seen) {
   if (!window_.BeginFrame(wait_ms)) {
-    window_.AskToStay();
+    window_.StayOpen();
     AskToClose(work_);
     if (work_.closing) {
       if (keeper_) keeper_->Forget();
@@ -61,7 +61,7 @@ bool EditorApp::Frame(int wait_ms, window::Image* seen) {
   }
   work_.picture.Want(work_.session.document().map.picture, work_.session.picture_state());
   const bool had_one = work_.picture.picture() != nullptr;
-  work_.picture.Look();
+  work_.picture.Poll();
   if (const std::string problem = work_.picture.TakeProblem(); !problem.empty()) work_.session.Say(problem, false);
   if (!had_one && work_.picture.picture() != nullptr && work_.session.document().map.curves.empty()) ShowAll(work_);
   RunTraffic();
@@ -150,8 +150,8 @@ int RunEditor(const std::filesystem::path& file) {
   settings.title = "Rodeira";
   auto opened = window::Window::Open(settings);
   if (!opened) return base::PrintError("rodeira", opened.error());
-  EditorApp desk(*opened.value(), file, base::UserDataFolder() / "editor");
-  while (desk.Frame(desk.wait_ms())) {
+  EditorApp app(*opened.value(), file, base::UserDataFolder() / "editor");
+  while (app.Frame(app.wait_ms())) {
   }
   return 0;
 }

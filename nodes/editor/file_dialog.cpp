@@ -20,8 +20,8 @@ std::string EndingOf(const fs::path& path) {
 
 }  // namespace
 
-void FileDialog::Ask(std::string title, std::vector<std::string> endings, bool to_write, const fs::path& start,
-                     Chosen chosen) {
+void FileDialog::Open(std::string title, std::vector<std::string> endings, bool to_write, const fs::path& start,
+                      Chosen chosen) {
   open_ = opens_ = true;
   to_write_ = to_write;
   title_ = std::move(title);

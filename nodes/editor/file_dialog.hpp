@@ -16,8 +16,8 @@ class FileDialog {
 
   // `endings` (".motors") are what is listed beside folders; a name without one of them gets the first. `to_write`: the
   // file may be new, and a second look is asked for where it is there.
-  void Ask(std::string title, std::vector<std::string> endings, bool to_write, const std::filesystem::path& start,
-           Chosen chosen);
+  void Open(std::string title, std::vector<std::string> endings, bool to_write, const std::filesystem::path& start,
+            Chosen chosen);
   bool open() const { return open_; }
   // In each picture; nothing where it is not open. `chosen` is called from here.
   void Draw();

@@ -40,7 +40,7 @@ void PictureLoader::Want(const std::string& bytes, std::uint64_t state) {
   });
 }
 
-void PictureLoader::Look() {
+void PictureLoader::Poll() {
   if (!thread_.joinable()) return;
   const bool ended = done_;
   if (ended) thread_.join();

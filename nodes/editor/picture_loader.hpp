@@ -26,7 +26,7 @@ class PictureLoader {
   // up.
   void Want(const std::string& bytes, std::uint64_t state);
   // Takes what has become ready.
-  void Look();
+  void Poll();
 
   // None: there is no picture, or not yet. While it is loading it may be a preview.
   const std::shared_ptr<const editor::Pyramid>& picture() const { return picture_; }

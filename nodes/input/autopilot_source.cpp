@@ -104,7 +104,7 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   const std::filesystem::path driver_file = config.Path("driver");
   const std::filesystem::path vehicle_file = config.Path("vehicle");
   const bool has_lane = config.Has("lane");
-  const auto lane_wish = static_cast<int>(config.Integer("lane", -20, 20, 0));
+  const auto wanted_lane = static_cast<int>(config.Integer("lane", -20, 20, 0));
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   bool sees_the_car = false;
   for (const lockstep::Port& port : context.spec().inputs)
@@ -119,7 +119,7 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   if (!model) return model.error();
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
-  auto way = has_lane ? driver::WayFromStart(*world.value(), lane_wish, config.Place("lane"))
+  auto way = has_lane ? driver::WayFromStart(*world.value(), wanted_lane, config.Place("lane"))
                       : driver::WayFromStart(*world.value(), std::nullopt, context.launch().world().string());
   if (!way) return way.error();
   context.set_world_hash(world.value()->content_hash());

@@ -105,7 +105,7 @@ class RecorderNode final : public lockstep::Node {
     const auto safe = context.LastRecordedStep();
     if (!safe) return safe.error();
     auto writer =
-        record::McapWriter::GoOn(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});
+        record::McapWriter::Resume(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});
     if (!writer) return writer.error();
     if (!writer.value()) return false;
     writer_ = std::move(writer).value();

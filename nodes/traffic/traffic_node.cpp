@@ -38,7 +38,7 @@ namespace topics = idl::topics;
 
 float Single(double value) { return static_cast<float>(value); }
 
-msg::TrafficAgent Standing(std::uint32_t id, std::uint32_t trip, const Eigen::Vector3d& p_W) {
+msg::TrafficAgent AgentAt(std::uint32_t id, std::uint32_t trip, const Eigen::Vector3d& p_W) {
   msg::TrafficAgent out;
   out.id(id);
   out.trip(trip);
@@ -50,7 +50,7 @@ msg::TrafficAgent Standing(std::uint32_t id, std::uint32_t trip, const Eigen::Ve
 
 msg::TrafficAgent ToMessage(const traffic::AgentPose& pose, const traffic::AgentTraits& traits, std::uint32_t lights) {
   const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
-  msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_WB_W);
+  msg::TrafficAgent out = AgentAt(pose.id, pose.trip, pose.p_WB_W);
   out.heading_rad(Single(std::atan2(rotation(1, 0), rotation(0, 0))));
   out.pitch_rad(Single(std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0))));
   out.roll_rad(Single(std::atan2(rotation(2, 1), rotation(2, 2))));
@@ -72,7 +72,7 @@ msg::TrafficAgent ToMessage(const traffic::AgentPose& pose, const traffic::Agent
 // Level, with no lights; the wheel that its legs go by turns once in two steps.
 msg::TrafficAgent ToMessage(const traffic::PersonPose& pose) {
   constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
-  msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_W);
+  msg::TrafficAgent out = AgentAt(pose.id, pose.trip, pose.p_W);
   out.heading_rad(Single(pose.heading_rad));
   out.speed_mps(pose.speed_mps);
   out.length_m(Single(traffic::Pedestrians::kLength_m));
@@ -249,7 +249,7 @@ class TrafficNode final : public lockstep::Node {
     if (!choice) return choice.error().WithContext(where);
     const std::vector<std::uint32_t> agents = Meant(choice.value(), where);
     if (!choice.value().at) {
-      for (const std::uint32_t id : agents) traffic::Obey(model_, id, kind, value);
+      for (const std::uint32_t id : agents) traffic::ApplyOrder(model_, id, kind, value);
       return {};
     }
     auto order = traffic::PlaceOrders::At(model_, choice.value().at->road, choice.value().at->s_m);

@@ -52,7 +52,7 @@ ObstacleMap::ObstacleMap(const road::World& world, double reach_m) : reach_m_(re
   }
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
   for (const network::TubePiece& piece : network::PlaceTubes(*world.network())) AddTube(piece);
-  if (world.standing() != nullptr) AddStanding(world, *world.standing());
+  if (world.props() != nullptr) AddProps(world, *world.props());
 }
 
 void ObstacleMap::AddThing(const road::World& world, const network::Placed& placed) {
@@ -61,17 +61,17 @@ void ObstacleMap::AddThing(const road::World& world, const network::Placed& plac
 }
 
 // On SUELO's highest ground.
-void ObstacleMap::AddStanding(const road::World& world, const network::Standing& standing) {
+void ObstacleMap::AddProps(const road::World& world, const network::Props& props) {
   const auto on_ground = [&](const Eigen::Vector2d& p_W, const network::Object& object) {
     const road::SurfacePoint ground = world.At(p_W.x(), p_W.y());
     return Vector3d(p_W.x(), p_W.y(), (ground.inside ? ground.z_m : 0.0) + object.z_offset_m);
   };
-  for (const network::Standing::Thing& thing : standing.things) {
-    const Vector3d foot = on_ground(thing.at_W, standing.objects[thing.object]);
-    AddBody(network::PlaceStanding(standing, thing, foot), foot, nullptr);
+  for (const network::Props::Placement& thing : props.placements) {
+    const Vector3d foot = on_ground(thing.at_W, props.objects[thing.object]);
+    AddBody(network::PlaceProp(props, thing, foot), foot, nullptr);
   }
-  for (const network::Standing::Run& run : standing.runs) {
-    const network::Object& object = standing.objects[run.object];
+  for (const network::Props::Run& run : props.runs) {
+    const network::Object& object = props.objects[run.object];
     Vector3d last = on_ground(run.points_W[0], object);
     for (std::size_t i = 1; i < run.points_W.size(); ++i) {
       const Eigen::Vector2d way = run.points_W[i] - run.points_W[i - 1];
@@ -107,12 +107,12 @@ void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, c
     if (outline.closed && feet.size() > 2) AddWall(object.id, feet.back(), feet.front(), kEdge_m, height);
   }
   if (!object.outlines.empty() || (placed.height_m < kLow_m && !IsBody(object))) return;
-  const bool house = object.type == "building";
+  const bool is_building = object.type == "building";
   const auto usual = [&](double said, double default_value) {
     return said > 0.0 ? said : placed.radius_m > 0.0 ? 2.0 * placed.radius_m : default_value;
   };
   AddBox(object.id, foot, placed.heading_rad,
-         {usual(placed.length_m, house ? 12.0 : 0.12), usual(placed.width_m, house ? 9.0 : 0.12),
+         {usual(placed.length_m, is_building ? 12.0 : 0.12), usual(placed.width_m, is_building ? 9.0 : 0.12),
           std::max(placed.height_m, kLow_m)},
          stands);
 }

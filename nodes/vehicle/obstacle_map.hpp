@@ -42,7 +42,7 @@ class ObstacleMap {
   void AddRun(const road::World& world, const network::PlacedRun& run);
   // Its walls, and beside a mouth the portal.
   void AddTube(const network::TubePiece& piece);
-  void AddStanding(const road::World& world, const network::Standing& standing);
+  void AddProps(const road::World& world, const network::Props& props);
   // A thing with a known foot; what stands at no road has no outline.
   void AddBody(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   // A wall of this width between two feet.

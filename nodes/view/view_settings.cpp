@@ -191,9 +191,9 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::RosterNode
   settings.full_screen = map.Flag("full_screen", false);
   settings.display = static_cast<int>(map.Integer("display", 0, 15, 0));
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
-  settings.window = window == "always"  ? WindowWish::kAlways
-                    : window == "never" ? WindowWish::kNever
-                                        : WindowWish::kAuto;
+  settings.window = window == "always"  ? WindowMode::kAlways
+                    : window == "never" ? WindowMode::kNever
+                                        : WindowMode::kAuto;
   settings.instruments = map.Flag("instruments", true);
   settings.sound = map.Flag("sound", true);
   settings.volume = map.Number("volume", {0.0, 1.0}, settings.volume);

@@ -21,7 +21,7 @@
 
 namespace rodeira::nodes {
 
-enum class WindowWish { kAuto, kAlways, kNever };
+enum class WindowMode { kAuto, kAlways, kNever };
 
 // Buttons of the mouse, by SDL's numbers.
 inline constexpr int kNoButton = 0, kLeftButton = 1, kMiddleButton = 2, kRightButton = 3;
@@ -37,7 +37,7 @@ struct ViewSettings {
   bool waits_for_picture = true;  // the run begins when everything is drawn once; else when the world is read
   bool full_screen = false;
   int display = 0;  // of the PC, for the window
-  WindowWish window = WindowWish::kAuto;
+  WindowMode window = WindowMode::kAuto;
   bool instruments = true;
   bool sound = true;    // of a window
   double volume = 0.6;  // 0 … 1

@@ -140,13 +140,12 @@ void AskWorld(const road::World& world) {
       }
     }
   }
-  if (const network::Standing* standing = world.standing()) {
-    for (const auto& thing : standing->things) {
-      EXPECT_TRUE(thing.at_W.allFinite() && std::isfinite(thing.heading_rad) &&
-                  thing.object < standing->objects.size());
+  if (const network::Props* props = world.props()) {
+    for (const auto& thing : props->placements) {
+      EXPECT_TRUE(thing.at_W.allFinite() && std::isfinite(thing.heading_rad) && thing.object < props->objects.size());
       ask(thing.at_W.x(), thing.at_W.y());
     }
-    for (const auto& run : standing->runs) EXPECT_GE(run.points_W.size(), 2u);
+    for (const auto& run : props->runs) EXPECT_GE(run.points_W.size(), 2u);
   }
   const auto ground = world.MakeGround();
   std::vector<ground::GroundPoint> points(queries.size());

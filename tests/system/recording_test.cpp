@@ -44,7 +44,7 @@ class Recordings : public ::testing::Test {
       files.push_back(entry.path());
     return files;
   }
-  Ended Ask(std::vector<std::string> words) const {
+  Ended Query(std::vector<std::string> words) const {
     words.insert(words.begin(), Bin("rodeira"));
     return RunCommand(words);
   }
@@ -60,7 +60,7 @@ TEST_F(Recordings, ARunWithoutARecorderIsRecordedInTheUsersDataFolder) {
   EXPECT_TRUE(fs::path(file).filename().string().starts_with("empty-")) << file;
   EXPECT_THAT(run.out, HasSubstr(file));
   EXPECT_THAT(run.out, HasSubstr("audit   lossless: 808 samples of 8 sources"));
-  const Ended info = Ask({"info", file});
+  const Ended info = Query({"info", file});
   EXPECT_EQ(info.status, 0) << info.out;
   EXPECT_THAT(info.out, HasLine("lossless: … from step 0 to step 200"));
   EXPECT_THAT(info.out, HasSubstr("1000 Hz"));
@@ -80,7 +80,7 @@ TEST_F(Recordings, AFileMayHaveAnyName) {
       std::vector<fs::path> files;
       for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path().filename());
       EXPECT_EQ(files, std::vector<fs::path>{name});
-      EXPECT_EQ(Ask({"info", folder + "/" + name}).status, 0) << name;
+      EXPECT_EQ(Query({"info", folder + "/" + name}).status, 0) << name;
       fs::remove_all(folder);
     }
   }
@@ -112,7 +112,7 @@ TEST_F(Recordings, OfARefusedRunNoneIsLeft) {
 
 TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
   ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "3", "--record", Path("a.mcap")}).status, 0);
-  const Ended done = Ask({"export", "--csv", Path("tables"), Path("a.mcap")});
+  const Ended done = Query({"export", "--csv", Path("tables"), Path("a.mcap")});
   ASSERT_EQ(done.status, 0) << done.out;
   EXPECT_THAT(done.out, HasSubstr("vehicle_state.csv"));
   std::ifstream table(Path("tables/vehicle_state.csv"));
@@ -140,7 +140,7 @@ TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
     EXPECT_THAT(clocks, HasSubstr(",clock,"));
     EXPECT_THAT(clocks, testing::Not(HasSubstr("channel")));
   }
-  const Ended again = Ask({"export", "--csv", Path("tables"), Path("a.mcap")});
+  const Ended again = Query({"export", "--csv", Path("tables"), Path("a.mcap")});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.out, HasLine(Path("tables") + ": … already"));
 }
@@ -160,25 +160,25 @@ TEST_F(Recordings, ACutFileIsNamedExportedAndMended) {
   ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "4", "--record", Path("a.mcap")}).status, 0);
   fs::copy_file(Path("a.mcap"), Path("cut.mcap"));
   fs::resize_file(Path("cut.mcap"), fs::file_size(Path("a.mcap")) / 2);
-  const Ended info = Ask({"info", Path("cut.mcap")});
+  const Ended info = Query({"info", Path("cut.mcap")});
   EXPECT_EQ(info.status, 1) << info.out;
   EXPECT_THAT(info.out, HasSubstr("not whole"));
   EXPECT_THAT(info.out, HasSubstr("what to do: rodeira repair " + Path("cut.mcap") + " --out "));
-  const Ended tables = Ask({"export", "--csv", Path("tables"), Path("cut.mcap")});
+  const Ended tables = Query({"export", "--csv", Path("tables"), Path("cut.mcap")});
   EXPECT_EQ(tables.status, 1) << tables.out;
   EXPECT_THAT(tables.out, HasSubstr("is not whole: the tables in "));
   EXPECT_TRUE(fs::exists(Path("tables/vehicle_state.csv")));
 
-  const Ended repair = Ask({"repair", Path("cut.mcap"), "--out", Path("good.mcap")});
+  const Ended repair = Query({"repair", Path("cut.mcap"), "--out", Path("good.mcap")});
   EXPECT_EQ(repair.status, 1) << "what is lost is no success: " << repair.out;
   EXPECT_THAT(repair.out, HasSubstr("everything is lost"));
   EXPECT_THAT(repair.out, HasSubstr("kept: "));
-  const Ended good = Ask({"info", Path("good.mcap")});
+  const Ended good = Query({"info", Path("good.mcap")});
   EXPECT_EQ(good.status, 0) << good.out;
   EXPECT_THAT(good.out, HasSubstr("repaired:"));
   EXPECT_THAT(good.out, HasSubstr("no gaps; the run was cancelled at step "));
-  EXPECT_EQ(Ask({"repair", Path("cut.mcap"), "--out", Path("good.mcap")}).status, 2) << "never overwritten";
-  EXPECT_EQ(Ask({"repair", Path("none.mcap"), "--out", Path("new.mcap")}).status, 2);
+  EXPECT_EQ(Query({"repair", Path("cut.mcap"), "--out", Path("good.mcap")}).status, 2) << "never overwritten";
+  EXPECT_EQ(Query({"repair", Path("none.mcap"), "--out", Path("new.mcap")}).status, 2);
   EXPECT_FALSE(fs::exists(Path("new.mcap")));
 }
 
@@ -206,7 +206,7 @@ TEST_F(Recordings, AMissingSampleIsNamed) {
     ASSERT_TRUE(writer.value().Write(ids.at(m.channel), m.sequence, m.log_time_ns, m.publish_time_ns, m.data).ok());
   }
   ASSERT_TRUE(writer.value().Close().ok());
-  const Ended info = Ask({"info", Path("gap.mcap")});
+  const Ended info = Query({"info", Path("gap.mcap")});
   EXPECT_EQ(info.status, 1) << info.out;
   EXPECT_THAT(info.out, HasSubstr("1 missing, the first behind step 416"));
   EXPECT_THAT(info.out, HasSubstr("not lossless"));
@@ -214,11 +214,11 @@ TEST_F(Recordings, AMissingSampleIsNamed) {
 
 TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
   const std::string text = folder_.Write("text.mcap", "this is a text").string();
-  EXPECT_EQ(Ask({"info", text}).status, 2);
-  EXPECT_EQ(Ask({"export", "--csv", Path("tables"), text}).status, 2);
-  EXPECT_EQ(Ask({"export", text}).status, 2) << "--csv is required";
-  EXPECT_EQ(Ask({"repair", text}).status, 2) << "--out is required";
-  EXPECT_EQ(Ask({"repair", text, "--out", Path("new.mcap")}).status, 2);
+  EXPECT_EQ(Query({"info", text}).status, 2);
+  EXPECT_EQ(Query({"export", "--csv", Path("tables"), text}).status, 2);
+  EXPECT_EQ(Query({"export", text}).status, 2) << "--csv is required";
+  EXPECT_EQ(Query({"repair", text}).status, 2) << "--out is required";
+  EXPECT_EQ(Query({"repair", text, "--out", Path("new.mcap")}).status, 2);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
@@ -229,8 +229,8 @@ TEST_F(Recordings, ADiskThatIsFullStopsTheRunAndTheFileIsReadable) {
   const Ended run = RunCommand({"/bin/bash", "-c", command});
   EXPECT_EQ(run.status, 1) << run.out;
   EXPECT_THAT(run.out, HasLine("a.mcap: … File too large"));
-  EXPECT_EQ(Ask({"info", Path("a.mcap")}).status, 1);
-  EXPECT_EQ(Ask({"repair", Path("a.mcap"), "--out", Path("b.mcap")}).status, 0);
+  EXPECT_EQ(Query({"info", Path("a.mcap")}).status, 1);
+  EXPECT_EQ(Query({"repair", Path("a.mcap"), "--out", Path("b.mcap")}).status, 0);
   EXPECT_GT(SamplesOf(Path("b.mcap")).size(), 100u);
 }
 
@@ -251,7 +251,7 @@ TEST_F(Recordings, NodesThatHaveFinishedStayUntilTheRecorderHasWrittenAll) {
   auto rest = static_cast<std::int64_t>(fs::file_size(Path("calm.mcap"))) - 8000;
   const auto begin = std::chrono::steady_clock::now();
   const auto ends = [&] {
-    return Ask({"ctl", "state", "--run", name}).out.find("is ending at step 600") != std::string::npos;
+    return Query({"ctl", "state", "--run", name}).out.find("is ending at step 600") != std::string::npos;
   };
   while ((rest > 0 || !ends()) && std::chrono::steady_clock::now() - begin < 60s) {
     const auto wanted = static_cast<std::size_t>(std::clamp<std::int64_t>(rest, 0, std::ssize(piece)));

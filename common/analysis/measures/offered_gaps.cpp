@@ -8,12 +8,12 @@ namespace rodeira::measures {
 namespace {
 
 // A junction that is driven through: from the arrival to the last sample in it.
-struct Passage {
+struct VehiclePassage {
   double arrives_s = 0.0, leaves_s = 0.0;
 };
 
-std::vector<Passage> PassagesOf(const Drive& d, double line_m) {
-  std::vector<Passage> passages;
+std::vector<VehiclePassage> PassagesOf(const Drive& d, double line_m) {
+  std::vector<VehiclePassage> passages;
   for (std::size_t k = 0; k < d.size(); ++k) {
     const bool inside = d.junction[k] == 1.0, before = k > 0 && d.junction[k - 1] == 1.0;
     if (inside && before) passages.back().leaves_s = static_cast<double>(k + 1) / d.rate_hz;
@@ -33,7 +33,7 @@ std::vector<Passage> PassagesOf(const Drive& d, double line_m) {
   return passages;
 }
 
-OfferedGaps GapsOf(const Passage& passage, std::vector<Encounter> encounters, const GapOptions& options) {
+OfferedGaps GapsOf(const VehiclePassage& passage, std::vector<Encounter> encounters, const GapOptions& options) {
   std::ranges::stable_sort(encounters, {}, &Encounter::other_enters_s);
   OfferedGaps gaps;
   gaps.time_s = encounters.front().own_enters_s;
@@ -60,7 +60,7 @@ OfferedGaps GapsOf(const Passage& passage, std::vector<Encounter> encounters, co
 std::vector<OfferedGaps> FindOfferedGaps(const Drive& drive, const GapOptions& options) {
   std::vector<OfferedGaps> all;
   if (!drive.encounters) return all;
-  for (const Passage& passage : PassagesOf(drive, options.line_m)) {
+  for (const VehiclePassage& passage : PassagesOf(drive, options.line_m)) {
     std::vector<Encounter> here;
     for (const Encounter& e : *drive.encounters) {
       if (e.own_enters_s >= passage.arrives_s && e.own_enters_s < passage.leaves_s) here.push_back(e);

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kTunables = "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2";
 
 // Written through volatile so that the compiler asks the library at run time instead of folding the constant.
-double Ask(double (*function)(double), double x) {
+double Evaluate(double (*function)(double), double x) {
   const volatile double argument = x;
   return function(argument);
 }
@@ -36,7 +36,7 @@ Digest ComputeFingerprint() {
   for (std::uint64_t i = 0; i < kArguments; ++i) {
     const double x = RandomUniform({i}, -1.0, 1.0) * (i % 3 == 0 ? 1.0 : 30.0);
     for (const Function function : functions) {
-      const double y = Ask(function, x);
+      const double y = Evaluate(function, x);
       out.Put(std::isnan(y) ? 0.0 : y);  // the sign of a NaN is no promise of IEEE 754
     }
     const volatile double a = std::fabs(x);

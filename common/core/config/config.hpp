@@ -138,9 +138,9 @@ class Map {
   void IgnoreKey(std::string_view key) const;
   /// Reads the text at the end of a path of keys. It neither marks the keys as known nor adds a problem: another reader
   /// reads them.
-  /// @param way names of the keys, from this mapping downward
+  /// @param path names of the keys, from this mapping downward
   /// @return the text, or nothing if there is none
-  std::optional<std::string> Peek(std::initializer_list<std::string_view> way) const;
+  std::optional<std::string> Peek(std::initializer_list<std::string_view> path) const;
   /// Lists all keys and marks them as known, for mappings with names as keys (nodes, materials).
   /// @return the keys in the order of the file
   std::vector<std::string> Keys() const;

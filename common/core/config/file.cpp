@@ -192,7 +192,7 @@ Map File::root() const {
 
 std::vector<base::Error> File::Problems() const {
   std::vector<detail::Problem> all = context_->problems, misspelt, strange;
-  for (const auto& [place, asked] : context_->asked) {
+  for (const auto& [place, asked] : context_->keys_read) {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
       if (!item.first.IsScalar()) {

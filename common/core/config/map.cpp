@@ -24,7 +24,7 @@ std::string OtherKind(std::string_view version, std::string_view expected, const
 Map::Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlNode> node, std::string path)
     : context_(std::move(context)), node_(std::move(node)), path_(std::move(path)) {
   if (node_->present && node_->node.IsMap()) {
-    auto& asked = context_->asked[{LineOf(node_->node), path_}];
+    auto& asked = context_->keys_read[{LineOf(node_->node), path_}];
     asked.node = node_->node;
     asked.path = path_;
   }
@@ -32,7 +32,7 @@ Map::Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlN
 
 // A reader that asks whether a key is there knows it: it is among those named where another is misspelt.
 bool Map::Has(std::string_view key) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].hoped.emplace(key);
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].hoped.emplace(key);
   return node_->present && Find(node_->node, key).IsDefined();
 }
 
@@ -43,7 +43,7 @@ std::string Map::Place(std::string_view key) const {
 }
 
 void Map::Problem(std::string_view key, base::ErrorId id, std::string message) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].wrong = true;
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].wrong = true;
   context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, id, std::move(message));
 }
 
@@ -55,7 +55,7 @@ void Map::Missing(std::string_view key, std::string_view expected) const {
 
 template <class T>
 std::optional<T> Map::Scalar(std::string_view key, bool required, std::string_view expected) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   if (!found.IsDefined()) {
     if (required && node_->present) Missing(key, expected);
@@ -163,7 +163,7 @@ std::vector<double> Map::Numbers(std::string_view key, Range range) const {
 }
 
 Map Map::OptionalChild(std::string_view key) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsMap();
   if (found.IsDefined() && !present)
@@ -180,7 +180,7 @@ Map Map::Child(std::string_view key) const {
 }
 
 List Map::OptionalItems(std::string_view key) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsSequence();
   if (found.IsDefined() && !present)
@@ -196,7 +196,7 @@ List Map::Items(std::string_view key) const {
 }
 
 void Map::IgnoreKey(std::string_view key) const {
-  if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
+  if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].keys.emplace(key);
 }
 
 std::optional<std::string> Map::Peek(std::initializer_list<std::string_view> path) const {
@@ -214,7 +214,7 @@ std::vector<std::string> Map::Keys() const {
   for (const auto& item : node_->node) {
     if (!item.first.IsScalar()) continue;
     keys.push_back(item.first.Scalar());
-    context_->asked[{LineOf(node_->node), path_}].keys.insert(item.first.Scalar());
+    context_->keys_read[{LineOf(node_->node), path_}].keys.insert(item.first.Scalar());
   }
   return keys;
 }

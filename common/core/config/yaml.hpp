@@ -42,14 +42,14 @@ struct Context {
   YAML::Node root;
   std::vector<Problem> problems;
   // Which keys of which mapping were asked for; the mapping is named by its mark in the text.
-  struct Asked {
+  struct KeysRead {
     YAML::Node node;
     std::string path;
     std::set<std::string, std::less<>> keys;
     std::set<std::string, std::less<>> hoped;  // those that may stand there
     bool wrong = false;                        // something in it is, and perhaps the rest was not read for that
   };
-  std::map<std::pair<int, std::string>, Asked> asked;
+  std::map<std::pair<int, std::string>, KeysRead> keys_read;
 
   void Add(int line, base::ErrorId id, std::string message, std::string missing = "") {
     problems.push_back({line, id, std::move(message), std::move(missing)});

@@ -40,7 +40,7 @@ class Scanner {
   void Count(ChannelId channel, std::uint64_t log_time_ns);
   void Count();
   void Find(std::string finding) { scan_.findings.push_back(std::move(finding)); }
-  void Lose(std::string finding) {
+  void AddLoss(std::string finding) {
     scan_.lost = true;
     Find(std::move(finding));
   }
@@ -108,7 +108,7 @@ bool Scanner::SkipLargeRecord() {
   in_run_ = false;
   after_skipped_chunk_ = true;
   crc_known_ = false;
-  Lose(fmt::format("byte {}: a record of {} bytes is lost; at most {} can be read", at_, length, kMaxRecordBytes));
+  AddLoss(fmt::format("byte {}: a record of {} bytes is lost; at most {} can be read", at_, length, kMaxRecordBytes));
   at_ += kHeadBytes + length;
   return true;
 }
@@ -197,7 +197,7 @@ Status Scanner::TakeDataEnd(const FileRecord& record) {
   const auto crc = ParseDataEnd(record.content(), rules());
   if (!crc) return WrongInput("recording.damaged", "the mark of the data's end is damaged");
   if (*crc != 0 && *crc != crc_ && crc_known_) {
-    Lose(
+    AddLoss(
         fmt::format("the checksum of all data is {:08x}, {:08x} was expected: something outside of the chunks "
                     "(header, metadata, an index) has changed",
                     crc_, *crc));
@@ -229,7 +229,7 @@ void Scanner::CheckPlaceOfDataEnd(std::uint64_t end) {
   if (!footer) return;  // ReadSummary says so
   const std::uint64_t expected = footer->summary_start == 0 ? footer_at : footer->summary_start;
   if (end == expected) return;
-  Lose(fmt::format("byte {}: the data end there; the footer says that they end at byte {}", end, expected));
+  AddLoss(fmt::format("byte {}: the data end there; the footer says that they end at byte {}", end, expected));
 }
 
 Status Scanner::Take(const FileRecord& record) {
@@ -321,8 +321,8 @@ base::Result<Scan> Scanner::Run() {
     if (!record && SkipLargeRecord()) continue;
     const Status status = record ? Take(record.value()) : Status(record.error());
     if (!status) {
-      Lose(fmt::format("byte {}: from there to the end ({} bytes) everything is lost: {}", at_, source_.size() - at_,
-                       status.error().message));
+      AddLoss(fmt::format("byte {}: from there to the end ({} bytes) everything is lost: {}", at_, source_.size() - at_,
+                          status.error().message));
       break;
     }
     crc_ = Crc32(record.value().bytes, crc_);

@@ -56,8 +56,8 @@ class McapWriter {
     std::uint64_t least_end_ns = 0;                                          // log time; 0: anything will do
     std::function<base::Status(const Channel&, const Message&)> on_message;  // in file order
   };
-  static base::Result<std::optional<McapWriter>> GoOn(const std::filesystem::path& path, const WriterSettings& settings,
-                                                      const Tail& tail);
+  static base::Result<std::optional<McapWriter>> Resume(const std::filesystem::path& path,
+                                                        const WriterSettings& settings, const Tail& tail);
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
   // Closes the file where Close() was not called; an error is lost then.

@@ -39,7 +39,7 @@ class Copier {
   Status CopyMetadata(const MetadataInfo& info);
   Status CopyAttachment(const AttachmentInfo& info);
   Status AddDefinitions();
-  void Lose(std::string sentence) {
+  void AddLoss(std::string sentence) {
     report_.lost = true;
     report_.losses.push_back(std::move(sentence));
   }
@@ -88,8 +88,8 @@ Status Copier::CopyRecord(const RecordView& record) {
     if (!id) return id.error();
   }
   if (message.data.size() > kMaxMessageBytes) {
-    Lose(fmt::format("a message at {} is lost: it has {} bytes, at most {} can be written",
-                     Seconds(message.log_time_ns), message.data.size(), kMaxMessageBytes));
+    AddLoss(fmt::format("a message at {} is lost: it has {} bytes, at most {} can be written",
+                        Seconds(message.log_time_ns), message.data.size(), kMaxMessageBytes));
     return {};
   }
   if (end_ != nullptr) end_->Keep(contents_.definitions.channels.at(message.channel), message);
@@ -100,7 +100,7 @@ Status Copier::CopyRecord(const RecordView& record) {
 Status Copier::CopyChunk(const ChunkInfo& info) {
   const auto chunk = LoadChunk(source_, info, contents_);
   if (!chunk) {
-    Lose(fmt::format("byte {}: {}", info.offset, chunk.error().message));
+    AddLoss(fmt::format("byte {}: {}", info.offset, chunk.error().message));
     return {};
   }
   for (std::uint64_t offset = 0; offset < chunk.value().records.size();) {
@@ -115,7 +115,7 @@ Status Copier::CopyMetadata(const MetadataInfo& info) {
   const auto record = Read(info.offset, info.record_bytes);
   const auto metadata = record ? ParseMetadata(record.value().content(), contents_.rules) : std::nullopt;
   if (!metadata || record.value().opcode != Opcode::kMetadata) {
-    Lose(fmt::format("byte {}: the metadata '{:.64}' are damaged", info.offset, info.name));
+    AddLoss(fmt::format("byte {}: the metadata '{:.64}' are damaged", info.offset, info.name));
     return {};
   }
   if (end_ != nullptr && metadata->name == end_->name()) {
@@ -129,7 +129,7 @@ Status Copier::CopyAttachment(const AttachmentInfo& info) {
   const auto record = Read(info.offset, info.record_bytes);
   const auto attachment = record ? ParseAttachment(record.value().content(), contents_.rules) : std::nullopt;
   if (!attachment || record.value().opcode != Opcode::kAttachment) {
-    Lose(fmt::format("byte {}: the attachment '{:.64}' is damaged", info.offset, info.name));
+    AddLoss(fmt::format("byte {}: the attachment '{:.64}' is damaged", info.offset, info.name));
     return {};
   }
   return writer_.AddAttachment(attachment->name, attachment->media_type, attachment->data, attachment->log_time_ns,

@@ -31,7 +31,7 @@ Status McapWriter::Work::Begin() {
   return Emit();
 }
 
-void McapWriter::Work::GoOn(Contents contents, std::uint64_t bytes, std::uint32_t crc) {
+void McapWriter::Work::Resume(Contents contents, std::uint64_t bytes, std::uint32_t crc) {
   offset_ = bytes;
   crc_ = crc;
   statistics_ = std::move(contents.statistics);

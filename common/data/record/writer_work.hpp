@@ -24,7 +24,7 @@ class McapWriter::Work {
   // Writes magic bytes and header. Once a function has failed all others return its Error.
   base::Status Begin();
   // Instead of Begin(): the sink holds `bytes` bytes with this checksum, and this is what they say.
-  void GoOn(Contents contents, std::uint64_t bytes, std::uint32_t crc);
+  void Resume(Contents contents, std::uint64_t bytes, std::uint32_t crc);
   base::Result<SchemaId> AddSchema(std::string_view name, std::string_view encoding, std::string_view text);
   base::Result<ChannelId> AddChannel(std::string_view topic, SchemaId schema, std::string_view message_encoding,
                                      const TextMap& metadata);

@@ -33,7 +33,7 @@ double AccAcceleration(const IdmSettings& idm, double speed_mps, double desired_
   if (plain >= cah) return plain;
   const double b = idm.braking_mps2;
   const double eased = (1.0 - kCoolness) * plain + kCoolness * (cah + b * std::tanh((plain - cah) / b));
-  return std::clamp(eased, -idm.hardest_mps2, idm.acceleration_mps2);
+  return std::clamp(eased, -idm.max_deceleration_mps2, idm.acceleration_mps2);
 }
 
 }  // namespace rodeira::driver

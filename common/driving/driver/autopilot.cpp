@@ -43,7 +43,7 @@ double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& p
     wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
   if (const auto stop = light_stops_.Step(settings_.lights, view.lights, front, speed, settings_.anticipation_s))
     wanted = std::min(wanted, *stop);
-  return std::max(wanted, -settings_.idm.hardest_mps2);
+  return std::max(wanted, -settings_.idm.max_deceleration_mps2);
 }
 
 // Beyond the road's end the lane is taken to go straight on.

@@ -5,11 +5,11 @@ namespace rodeira::driver {
 
 // The Intelligent Driver Model (Treiber, Hennecke, Helbing, Phys. Rev. E 62, 1805, 2000).
 struct IdmSettings {
-  double time_gap_s = 1.5;         // T
-  double standing_gap_m = 2.0;     // s0
-  double acceleration_mps2 = 1.4;  // a
-  double braking_mps2 = 2.0;       // b, comfortable
-  double hardest_mps2 = 8.0;       // no deceleration beyond it
+  double time_gap_s = 1.5;             // T
+  double min_gap_m = 2.0;              // s0
+  double acceleration_mps2 = 1.4;      // a
+  double braking_mps2 = 2.0;           // b, comfortable
+  double max_deceleration_mps2 = 8.0;  // no deceleration beyond it
 };
 
 // dv/dt = a [1 - (v/v0)^4 - (s*/s)²],  s* = s0 + max(0, v T + v dv / (2 sqrt(a b))), dv = v - leader's speed, s the gap

@@ -39,7 +39,8 @@ std::optional<double> LightStops::Step(const LightSettings& settings, std::span<
   const double v = std::max(0.0, speed_mps);
   const double gap = next->d_m - settings.before_line_m - front_m, then = gap - anticipation_s * v;
   if (decided_m_ != next->d_m) {
-    const double most = next->colour == network::LightColour::kAmber ? settings.for_amber_mps2 : settings.hardest_mps2;
+    const double most =
+        next->colour == network::LightColour::kAmber ? settings.for_amber_mps2 : settings.max_deceleration_mps2;
     decided_m_ = next->d_m;
     passes_ = v > kStanding_mps && v * v > 2.0 * most * std::max(0.0, then);
   }

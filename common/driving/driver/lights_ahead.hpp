@@ -32,8 +32,8 @@ struct LightSettings {
   double before_line_m = 0.6;   // here the front stops
   double for_amber_mps2 = 2.8;  // a car that can stop by braking so hard stops at amber (docs/explanation/traffic.md)
   double braking_mps2 = 1.5;    // comfortable
-  double hardest_mps2 = 8.0;    // a car that could not stop even so goes on at red
-  double tracking_s = 1.0;      // time in which a deviation from the braking is made good
+  double max_deceleration_mps2 = 8.0;  // a car that could not stop even so goes on at red
+  double tracking_s = 1.0;             // time in which a deviation from the braking is made good
 };
 
 // Stops at lights. At the first line ahead that does not show green it decides, once: a car that could no more stop

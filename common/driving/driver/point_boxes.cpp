@@ -25,7 +25,7 @@ struct PointBoxes::Search {
   std::size_t nearest = 0;
   double least_m2 = std::numeric_limits<double>::infinity();
 
-  void Look(std::size_t i, const Eigen::Vector3d& point_W) {
+  void TestPoint(std::size_t i, const Eigen::Vector3d& point_W) {
     if (z_m && std::fabs(point_W.z() - *z_m) > level_m) return;
     const double squared = (point_W.head<2>() - p_W).squaredNorm();
     if (squared < least_m2 || (squared == least_m2 && i < nearest)) nearest = i, least_m2 = squared;
@@ -62,7 +62,7 @@ void PointBoxes::LookInto(Search& search, std::size_t level, std::size_t box) co
   const std::size_t size = level == 0 ? points_W_.size() : levels_[level - 1].size();
   for (std::size_t i = kBoxed * box; i < std::min(kBoxed * (box + 1), size); ++i) {
     if (level == 0)
-      search.Look(i, points_W_[i]);
+      search.TestPoint(i, points_W_[i]);
     else
       LookInto(search, level - 1, i);
   }
@@ -72,7 +72,7 @@ std::optional<std::size_t> PointBoxes::Nearest(const Eigen::Vector2d& p_W, std::
                                                std::size_t likely) const {
   Search search{p_W, z_m, level_m};
   const std::size_t first = std::min(likely, points_W_.size() - 1);
-  search.Look(first, points_W_[first]);
+  search.TestPoint(first, points_W_[first]);
   LookInto(search, 0, first / kBoxed);
   LookInto(search, levels_.size() - 1, 0);
   return std::isinf(search.least_m2) ? std::nullopt : std::optional(search.nearest);

@@ -87,7 +87,7 @@ RoutePath::Motion RoutePath::MotionAt(const Spot& spot) const {
   return {at.p_W, at.ds_W + 0.5 * (span->inner_slope + span->outer_slope) * at.dt_W};
 }
 
-Eigen::Vector3d RoutePath::Ahead(double d_m) const {
+Eigen::Vector3d RoutePath::TangentAt(double d_m) const {
   const Spot spot = SpotAt(d_m);
   return AheadOf(spot, MotionAt(spot));
 }
@@ -115,7 +115,7 @@ LaneFrame RoutePath::At(double d_m) const {
   frame.heading_rad = std::atan2(ahead.y(), ahead.x());
   frame.grade = ahead.z();
   const double low = std::max(0.0, d - kBendHalfLength_m), high = std::min(length_m(), d + kBendHalfLength_m);
-  const Eigen::Vector2d before = Ahead(low).head<2>(), after = Ahead(high).head<2>();
+  const Eigen::Vector2d before = TangentAt(low).head<2>(), after = TangentAt(high).head<2>();
   frame.curvature_1pm = std::atan2(geometry::Cross(before, after), before.dot(after)) / (high - low);
   return frame;
 }
@@ -123,14 +123,14 @@ LaneFrame RoutePath::At(double d_m) const {
 Eigen::Vector3d RoutePath::MiddleAt(double d_m) const { return MotionAt(SpotAt(std::clamp(d_m, 0.0, length_m()))).p_W; }
 
 double RoutePath::HeadingAt(double d_m) const {
-  const Eigen::Vector3d ahead = Ahead(std::clamp(d_m, 0.0, length_m()));
+  const Eigen::Vector3d ahead = TangentAt(std::clamp(d_m, 0.0, length_m()));
   return std::atan2(ahead.y(), ahead.x());
 }
 
 double RoutePath::VerticalCurvature_1pm(double d_m) const {
   const double low = std::max(0.0, d_m - 4.0 * kBendHalfLength_m),
                high = std::min(length_m(), d_m + 4.0 * kBendHalfLength_m);
-  return (Ahead(high).z() - Ahead(low).z()) / (high - low);
+  return (TangentAt(high).z() - TangentAt(low).z()) / (high - low);
 }
 
 Eigen::Vector3d RoutePath::Position(double d_m, double offset_m) const {

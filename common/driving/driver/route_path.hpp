@@ -50,7 +50,7 @@ class RoutePath final : public Way {
   // The same, looked for from a node on.
   Spot SpotNear(std::size_t node, double d_m) const;
   Motion MotionAt(const Spot& spot) const;
-  Eigen::Vector3d Ahead(double d_m) const;  // not of unit length; p in plan, the rise over it in z
+  Eigen::Vector3d TangentAt(double d_m) const;  // not of unit length; p in plan, the rise over it in z
   Eigen::Vector3d AheadOf(const Spot& spot, const Motion& motion) const;
   // The place of a point with this nearest node.
   std::optional<Place> PlaceNear(std::size_t node, const Eigen::Vector2d& p_W) const;

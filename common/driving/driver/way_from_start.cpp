@@ -14,7 +14,7 @@ constexpr double kRoute_m = 20'000.0;
 
 }  // namespace
 
-base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish,
+base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> wanted_lane,
                                         const std::string& place) {
   const road::StartPose& start = world.start();
   if (world.network() == nullptr || world.network()->roads().empty())
@@ -32,7 +32,7 @@ base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<
                             place);
   }
   network::LaneKey lane = at->lane;
-  lane.lane = lane_wish.value_or(lane.lane);
+  lane.lane = wanted_lane.value_or(lane.lane);
   const network::Lane* found = network.Find(lane);
   if (found == nullptr || (lane.lane != at->lane.lane && !network::IsDrivable(found->type)))
     return base::WrongInput(

@@ -21,7 +21,7 @@ struct WayAndLights {
 
 // The lane in which the world's start lies, or another lane of the same road, from its beginning 20 km straight on.
 // Wrong input where there is no such lane; `place`: what names it, for the sentence.
-base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish,
+base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> wanted_lane,
                                         const std::string& place);
 
 }  // namespace rodeira::driver

@@ -75,7 +75,7 @@ void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) 
   run_.missed.Restarted(node);
   Say("restart {} {} {}", run_.roster.node(node).name, run_.clock.incarnation(node), OneLine(reason));
   if (!reason.empty()) run_.controller.NoteFault(reason + "; it is started again", run_.Now());
-  on_next_life_(node);
+  on_restart_(node);
 }
 
 base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {

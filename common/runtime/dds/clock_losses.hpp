@@ -21,7 +21,7 @@ class ClockLosses {
  public:
   // on_restart: another incarnation of the node is expected; the grant that says so is to be said.
   ClockLosses(ClockRun& run, std::function<void(lockstep::NodeIndex)> on_restart)
-      : run_(run), on_next_life_(std::move(on_restart)) {}
+      : run_(run), on_restart_(std::move(on_restart)) {}
 
   // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
   // another incarnation has taken its place.
@@ -38,7 +38,7 @@ class ClockLosses {
   void Announce(lockstep::NodeIndex node, const std::string& reason);
 
   ClockRun& run_;
-  std::function<void(lockstep::NodeIndex)> on_next_life_;
+  std::function<void(lockstep::NodeIndex)> on_restart_;
 };
 
 }  // namespace rodeira::dds

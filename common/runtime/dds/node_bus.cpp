@@ -27,9 +27,9 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
   retransmit_server_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
-                             [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
-                               if (asker != settings_.node)
-                                 (void)answers_writer_->Write(EncodeSampleBatch(asker, samples));
+                             [this](lockstep::NodeIndex requester, std::span<const lockstep::Sample> samples) {
+                               if (requester != settings_.node)
+                                 (void)answers_writer_->Write(EncodeSampleBatch(requester, samples));
                              });
 }
 
@@ -90,13 +90,13 @@ base::Status NodeBus::Connect(Participant& participant) {
     return status;
   if (!writers_.empty() || settings_.keeps_all) {
     if (auto status =
-            add_reader(topics::kNack, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+            add_reader(topics::kNack, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) { OnNack(bytes); });
         !status)
       return status;
   }
-  auto questions = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
-  if (!questions) return questions.error();
-  nack_writer_ = std::move(questions).value();
+  auto nacks = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
+  if (!nacks) return nacks.error();
+  nack_writer_ = std::move(nacks).value();
   auto reports = participant.MakeWriter(topics::kReport, Delivery::kBestEffortRepeated);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
@@ -165,13 +165,13 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
   return *writers_[static_cast<std::size_t>(output - outputs_.begin())];
 }
 
-void NodeBus::Ask(const lockstep::Gap& gap) {
+void NodeBus::SendNack(const lockstep::Gap& gap) {
   (void)nack_writer_->Write(
-      EncodeNack(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
+      EncodeNack(roster_.hash(), {settings_.node, gap}));  // a lost nack is put again by the runner
 }
 
-void NodeBus::OnAsk(const base::Bytes& payload) {
-  if (const auto question = DecodeNack(roster_.hash(), payload)) retransmit_server_->Take(*question);
+void NodeBus::OnNack(const base::Bytes& payload) {
+  if (const auto nack = DecodeNack(roster_.hash(), payload)) retransmit_server_->Take(*nack);
 }
 
 void NodeBus::OnSampleBatch(const base::Bytes& payload) {
@@ -224,7 +224,7 @@ std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(lockstep::Step step, st
   wanted_ = wanted;
   while (!snapshot_ && WallClock::now() < until && !mailbox_.grant().abort) {
     lock.unlock();
-    Ask(wanted);
+    SendNack(wanted);
     lock.lock();
     woken_.wait_for(lock, std::chrono::milliseconds(10), [&] { return snapshot_.has_value(); });
   }

@@ -55,7 +55,7 @@ class NodeBus final : public lockstep::Bus {
   ~NodeBus() override;
 
   base::Status Publish(const lockstep::Sample& sample) override;
-  void Ask(const lockstep::Gap& gap) override;
+  void SendNack(const lockstep::Gap& gap) override;
   void Tell(const lockstep::Report& report) override;
 
   // A sample of another node of this process.
@@ -126,7 +126,7 @@ class NodeBus final : public lockstep::Bus {
   void LookAtAddressSpace(const lockstep::Grant& grant);
   // Ends this process where it has been told to end and does not come to it.
   void EndIfItHangs(const lockstep::Grant& grant);
-  void OnAsk(const base::Bytes& payload);
+  void OnNack(const base::Bytes& payload);
   Writer& WriterOf(lockstep::SourceIndex output);
   void EndEarly(lockstep::LifeEvent event, std::string reason);
   lockstep::Report ReportNow();

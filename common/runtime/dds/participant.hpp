@@ -16,7 +16,7 @@ namespace rodeira::dds {
 
 // How a topic's samples are kept and handed over (docs/explanation/architecture.md says why).
 enum class Delivery {
-  kBestEffortRepeated,  // best effort: what is repeated where it is missed (samples, grants, reports, questions and
+  kBestEffortRepeated,  // best effort: what is repeated where it is missed (samples, grants, reports, nacks and
                         // answers)
   kLatched,             // reliable, transient local, the newest: world information
   kHistory,  // reliable, transient local, the newest 256: what happens seldom and must reach every node (triggers)

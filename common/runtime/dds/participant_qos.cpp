@@ -110,7 +110,7 @@ int UnusedParticipant(std::uint32_t domain) {
 }
 
 void SetDiscovery(const DomainSettings& settings, fdds::DomainParticipantQos& qos) {
-  const launch::Discovery& wish = settings.discovery;
+  const launch::Discovery& wanted = settings.discovery;
   auto& builtin = qos.wire_protocol().builtin;
   auto& discovery = builtin.discovery_config;
   // The lockstep has its own heartbeat; a lease that runs out under load would only tear matched endpoints apart.
@@ -118,14 +118,14 @@ void SetDiscovery(const DomainSettings& settings, fdds::DomainParticipantQos& qo
   discovery.leaseDuration_announcementperiod = Duration_t{1, 0};
   discovery.initial_announcements.count = 20;
   discovery.initial_announcements.period = Duration_t{0, 50u * kNanosecondsPerMillisecond};
-  if (wish.kind == launch::DiscoveryKind::kMulticast) return;
-  if (wish.kind == launch::DiscoveryKind::kPeers) {
+  if (wanted.kind == launch::DiscoveryKind::kMulticast) return;
+  if (wanted.kind == launch::DiscoveryKind::kPeers) {
     builtin.metatrafficUnicastLocatorList.push_back(Locator_t());  // any address and port of ours, and no multicast
-    for (const std::string& address : wish.addresses) builtin.initialPeersList.push_back(UdpLocator(address, 0));
+    for (const std::string& address : wanted.addresses) builtin.initialPeersList.push_back(UdpLocator(address, 0));
     return;
   }
   discovery.discoveryServer_client_syncperiod = Duration_t{0, 100u * kNanosecondsPerMillisecond};
-  const Locator_t server = UdpLocator(wish.address, wish.port);
+  const Locator_t server = UdpLocator(wanted.address, wanted.port);
   if (settings.serves_discovery) {
     discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SERVER;
     qos.wire_protocol().prefix = ServerPrefix(settings);

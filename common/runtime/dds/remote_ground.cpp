@@ -12,12 +12,12 @@ namespace rodeira::dds {
 
 namespace topics = idl::topics;
 
-RemoteGround::RemoteGround(lockstep::NodeIndex asker, std::uint32_t incarnation, std::function<bool()> over)
-    : asker_(asker), incarnation_(incarnation), over_(std::move(over)) {}
+RemoteGround::RemoteGround(lockstep::NodeIndex requester, std::uint32_t incarnation, std::function<bool()> over)
+    : requester_(requester), incarnation_(incarnation), over_(std::move(over)) {}
 
-base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex asker,
+base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex requester,
                                                                std::uint32_t incarnation, std::function<bool()> over) {
-  std::unique_ptr<RemoteGround> ground(new RemoteGround(asker, incarnation, std::move(over)));
+  std::unique_ptr<RemoteGround> ground(new RemoteGround(requester, incarnation, std::move(over)));
   auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kBestEffortRepeated);
   if (!requests) return requests.error();
   ground->requests_ = std::move(requests).value();
@@ -31,7 +31,7 @@ base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& part
 void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   RODEIRA_ASSERT(queries.size() == points.size());
   msg::GroundRequest request;
-  request.requester(asker_);
+  request.requester(requester_);
   request.incarnation(incarnation_);
   request.points().resize(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -45,8 +45,8 @@ void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span
   answered_ = false;
   points_ = points;
   const base::Bytes payload = idl::Encode(request);
-  // Until an answer to this very request has come: question or answer may be lost, or the server has not met us yet.
-  // The same question again does no harm, SUELO is a function.
+  // Until an answer to this very request has come: request or answer may be lost, or the server has not met us yet.
+  // The same request again does no harm, SUELO is a function.
   auto patience = std::chrono::milliseconds(5);
   while (!answered_) {
     lock.unlock();
@@ -68,7 +68,7 @@ void RemoteGround::OnReply(base::Bytes&& payload) {
   // Replies go to all clients; the one that is meant stands in the first eight bytes behind the encapsulation.
   base::ByteReader head(payload);
   (void)head.GetRaw(4);
-  if (head.Get<std::uint32_t>() != asker_ || head.Get<std::uint32_t>() != incarnation_) return;
+  if (head.Get<std::uint32_t>() != requester_ || head.Get<std::uint32_t>() != incarnation_) return;
   const auto reply = idl::Decode<msg::GroundReply>(payload);
   if (!reply) return;
   const std::lock_guard lock(mutex_);

@@ -16,18 +16,18 @@ namespace rodeira::dds {
 // may have been restarted), and gives "outside" once `over` says that the run is.
 class RemoteGround final : public ground::Ground {
  public:
-  // `asker` and `incarnation` tell its answers from others'. Fails as Participant::MakeWriter and MakeReader do.
-  static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker,
+  // `requester` and `incarnation` tell its answers from others'. Fails as Participant::MakeWriter and MakeReader do.
+  static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex requester,
                                                           std::uint32_t incarnation, std::function<bool()> over);
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
   // Its heartbeat says "waits for a server" meanwhile; may be null.
   void Follow(lockstep::Runner* runner) { runner_ = runner; }
 
  private:
-  RemoteGround(lockstep::NodeIndex asker, std::uint32_t incarnation, std::function<bool()> over);
+  RemoteGround(lockstep::NodeIndex requester, std::uint32_t incarnation, std::function<bool()> over);
   void OnReply(base::Bytes&& payload);
 
-  lockstep::NodeIndex asker_;
+  lockstep::NodeIndex requester_;
   std::uint32_t incarnation_;
   std::function<bool()> over_;
   lockstep::Runner* runner_ = nullptr;

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace topics = idl::topics;
 
-// In a question, instead of a source's number: the run's log, with batches that are counted as steps are.
+// In a nack, instead of a source's number: the run's log, with batches that are counted as steps are.
 constexpr lockstep::SourceIndex kLogSource = std::numeric_limits<std::uint32_t>::max();
 
 lockstep::RemarkKind KindOf(const std::string& name) {
@@ -37,7 +37,7 @@ class Speaker final : public LogSpeaker {
     if (!writer) return writer.error();
     writer_ = std::move(writer).value();
     auto reader = participant.MakeReader(topics::kNack, Delivery::kBestEffortRepeated,
-                                         [this](base::Bytes&& bytes) { OnAsk(bytes); });
+                                         [this](base::Bytes&& bytes) { OnNack(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -51,7 +51,7 @@ class Speaker final : public LogSpeaker {
   }
 
  private:
-  void OnAsk(const base::Bytes& bytes) {
+  void OnNack(const base::Bytes& bytes) {
     const auto ask = DecodeNack(roster_hash_, bytes);
     if (!ask || ask->gap.source != kLogSource) return;
     std::vector<lockstep::LogBatch> again;
@@ -85,7 +85,7 @@ class Receiver final : public launch::RunLogReceiver {
     return {};
   }
   std::vector<lockstep::LogBatch> Take() override {
-    if (const auto gap = inbox_.Gap()) Ask(*gap);
+    if (const auto gap = inbox_.Gap()) SendNack(*gap);
     return inbox_.Take();
   }
   void BeginAt(std::uint64_t number) override { inbox_.BeginAt(number); }
@@ -93,13 +93,13 @@ class Receiver final : public launch::RunLogReceiver {
     const auto until = std::chrono::steady_clock::now() + limit;
     while (!inbox_.AwaitEnd(10ms)) {
       if (std::chrono::steady_clock::now() > until) return false;
-      Ask(inbox_.next());
+      SendNack(inbox_.next());
     }
     return true;
   }
 
  private:
-  void Ask(std::uint64_t from) {
+  void SendNack(std::uint64_t from) {
     (void)nack_writer_->Write(EncodeNack(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
   }
   void Hear(const base::Bytes& bytes) {

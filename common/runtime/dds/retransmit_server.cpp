@@ -44,11 +44,11 @@ void RetransmitServer::Granted(const lockstep::Grant& grant) {
   if (archive_) archive_->Forget(grant.resume);
 }
 
-void RetransmitServer::Take(const lockstep::Nack& question) {
+void RetransmitServer::Take(const lockstep::Nack& nack) {
   {
     const std::lock_guard lock(mutex_);
-    if (!archive_ && !kept_.Has(question.gap.source)) return;
-    pending_nacks_.Add(question);
+    if (!archive_ && !kept_.Has(nack.gap.source)) return;
+    pending_nacks_.Add(nack);
   }
   woken_.notify_all();
 }
@@ -57,26 +57,26 @@ std::vector<lockstep::Sample> RetransmitServer::Found(const lockstep::Gap& gap) 
   return kept_.Has(gap.source) || !archive_ ? kept_.From(gap) : archive_->From(gap);
 }
 
-void RetransmitServer::Send(lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) const {
+void RetransmitServer::Send(lockstep::NodeIndex requester, std::span<const lockstep::Sample> samples) const {
   for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
     std::size_t bytes = 0;
     while (end < samples.size() && (end == begin || bytes + samples[end].payload->size() <= most_bytes_))
       bytes += samples[end++].payload->size();
-    say_(asker, samples.subspan(begin, end - begin));
+    say_(requester, samples.subspan(begin, end - begin));
   }
 }
 
 void RetransmitServer::Work() {
   std::unique_lock lock(mutex_);
   while (!stop_) {
-    const auto question = pending_nacks_.Next();
-    if (!question) {
+    const auto nack = pending_nacks_.Next();
+    if (!nack) {
       woken_.wait(lock, [this] { return stop_ || !pending_nacks_.empty(); });
       continue;
     }
-    const std::vector<lockstep::Sample> found = Found(question->gap);
+    const std::vector<lockstep::Sample> found = Found(nack->gap);
     lock.unlock();
-    Send(question->asker, found);
+    Send(nack->requester, found);
     lock.lock();
   }
 }

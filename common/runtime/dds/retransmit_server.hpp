@@ -21,8 +21,8 @@ namespace rodeira::dds {
 // way, the threads that receive go on receiving. Safe for any threads.
 class RetransmitServer {
  public:
-  // To the asker, from the answering thread, never of two answers at a time.
-  using Say = std::function<void(lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples)>;
+  // To the requester, from the answering thread, never of two answers at a time.
+  using Say = std::function<void(lockstep::NodeIndex requester, std::span<const lockstep::Sample> samples)>;
   // `keeps_all`: as NodeBus. At most `most_bytes` of payload are said at once, or one sample.
   RetransmitServer(const lockstep::Roster& roster, lockstep::NodeIndex node, bool keeps_all, std::size_t most_bytes,
                    Say say);
@@ -37,13 +37,13 @@ class RetransmitServer {
   // Drops what no node can lack any more.
   void Granted(const lockstep::Grant& grant);
   // Is answered soon, or passed over where this node has nothing of it.
-  void Take(const lockstep::Nack& question);
+  void Take(const lockstep::Nack& nack);
 
  private:
   void Work();
   // What this node has of it, oldest first.
   std::vector<lockstep::Sample> Found(const lockstep::Gap& gap) const;
-  void Send(lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) const;
+  void Send(lockstep::NodeIndex requester, std::span<const lockstep::Sample> samples) const;
 
   std::size_t most_bytes_;
   Say say_;

@@ -60,8 +60,8 @@ class ClockProcess {
         clock_id_(DrawnIfNone(options.clock_id)),
         run_(launch, options),
         gate_(run_, clock_id_),
-        losses_(run_, [this](lockstep::NodeIndex node) { OnNextLife(node); }),
-        desk_(run_, losses_) {}
+        losses_(run_, [this](lockstep::NodeIndex node) { OnRestart(node); }),
+        operator_commands_(run_, losses_) {}
 
   int Run() {
     DomainSettings settings = DomainOf(options_, run_.launch, "clock");
@@ -148,8 +148,8 @@ class ClockProcess {
     run_.clock.Rebuild();
     serial_ = options_.incarnation << 24;
     if (options_.begun_ns < 0) return;
-    run_.controller.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(),
-                         options_.paused, run_.Now());
+    run_.controller.ContinueRun(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(),
+                                options_.paused, run_.Now());
   }
 
   int Loop() {
@@ -169,11 +169,11 @@ class ClockProcess {
         if (auto status = CheckMemory(); !status) return Abort({status.error().Text(), 1});
       }
       const lockstep::Grant before = run_.clock.grant();
-      desk_.Do(supervisor_.TakeCommands());
+      operator_commands_.Do(supervisor_.TakeCommands());
       if (run_.clock.grant().abort) return Abort({run_.clock.grant().reason, 1});
-      if (desk_.stop_asked() && !run_.missed.empty())
+      if (operator_commands_.stop_asked() && !run_.missed.empty())
         return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
-      const lockstep::Grant grant = run_.controller.Move(run_.Now());
+      const lockstep::Grant grant = run_.controller.Update(run_.Now());
       if (const std::string warning = run_.controller.TakeWarning(); !warning.empty())
         base::Log(base::LogLevel::kWarning, "", warning);
       const auto now = WallClock::now();
@@ -205,7 +205,7 @@ class ClockProcess {
     const int signals = StopSignals();
     if (signals > 2 || supervisor_.must_abort()) return RunTermination{"stopped by a signal" + NotFinished(), 1};
     if (signals > 0 && run_.clock.grant().through < 0) return RunTermination{"stopped by a signal", 1};
-    if (signals > 0) desk_.StopBySignal();
+    if (signals > 0) operator_commands_.StopBySignal();
     return LookAfterSupervisor(now);
   }
   // Without `rodeira run` the run ends: in order at its last granted step, or after a moment by an abort.
@@ -214,14 +214,14 @@ class ClockProcess {
     if (!alone_since_) alone_since_ = now;
     if (run_.clock.grant().through < 0 || now - *alone_since_ > kOrderlyStop)
       return RunTermination{"'rodeira run' has ended" + NotFinished(), 1};
-    desk_.StopBySignal();
+    operator_commands_.StopBySignal();
     return std::nullopt;
   }
   std::string NotFinished() const {
     const auto names = run_.clock.Missing(lockstep::Phase::kFinished);
     return names.empty() ? "" : fmt::format(" before these nodes had finished: '{}'", fmt::join(names, "', '"));
   }
-  void OnNextLife(lockstep::NodeIndex node) {
+  void OnRestart(lockstep::NodeIndex node) {
     gate_.ExpectRestart(node);
     SayGrant(run_.clock.grant());
   }
@@ -294,7 +294,7 @@ class ClockProcess {
   ClockRun run_;
   ClockGate gate_;
   ClockLosses losses_;
-  OperatorCommands desk_;
+  OperatorCommands operator_commands_;
   std::uint32_t serial_ = 0;
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point shown_{};

@@ -104,7 +104,7 @@ class Follower {
     WallClock::time_point heard_at;
     std::vector<std::optional<lockstep::Report>> reports;
   };
-  Now Look() {
+  Now Poll() {
     std::unique_lock lock(mutex_);
     woken_.wait_for(lock, 10ms);
     return {clock_id_, grant_, heard_at_, reports_};
@@ -113,7 +113,7 @@ class Follower {
   int Loop() {
     std::optional<WallClock::time_point> aborted_at;
     for (;;) {
-      const Now now = Look();
+      const Now now = Poll();
       if (now.clock_id == 0) {
         if (StopSignals() > 0) return ReportFault(base::Failed("run.interrupted", "stopped by a signal"));
         Show([&] { Say("waiting for the clock of run '{}' in domain {}", OneLine(options_.run), options_.domain); });

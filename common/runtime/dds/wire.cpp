@@ -265,12 +265,12 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   return out;
 }
 
-base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question) {
+base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& nack) {
   msg::Nack out;
   out.roster_hash(roster_hash);
-  out.from_step(question.gap.from);
-  out.source(question.gap.source);
-  out.requester(question.asker);
+  out.from_step(nack.gap.from);
+  out.source(nack.gap.source);
+  out.requester(nack.requester);
   return idl::Encode(out);
 }
 

@@ -58,7 +58,7 @@ base::Bytes EncodeGrant(const NumberedGrant& grant);
 // Wrong input where it cannot be read: it is of another version.
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
-base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question);
+base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& nack);
 // Nothing where it is of another roster or cannot be read: the requester will ask again.
 std::optional<lockstep::Nack> DecodeNack(base::Digest roster_hash, const base::Bytes& payload);
 

@@ -27,7 +27,7 @@ std::unique_ptr<RunControlClient> RunControlClient::Open() {
 
 RunControlClient::~RunControlClient() { ::close(file_); }
 
-void RunControlClient::Ask(const std::string& command) {
+void RunControlClient::Send(const std::string& command) {
   const std::string line = command + "\n";
   (void)::send(file_, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }

@@ -20,7 +20,7 @@ class RunControlClient {
   RunControlClient& operator=(const RunControlClient&) = delete;
 
   // A command as `rodeira ctl` has it. Never waits; what cannot be sent is not asked.
-  void Ask(const std::string& command);
+  void Send(const std::string& command);
   // The next answer, in the order of what was asked: "ok paused at 1.234 s (step 1234)". Never waits.
   std::optional<std::string> Answer();
 

@@ -15,8 +15,8 @@ class Bus {
   // To every node that is wired to the sample's source. It may be lost on its way: then its consumer asks for it.
   virtual base::Status Publish(const Sample& sample) = 0;
   // The consumer lacks samples of this source, `gap.from` and what follows: the node that keeps them repeats them. The
-  // question may be lost too; it is put again as long as the samples are missing.
-  virtual void Ask(const Gap& gap) = 0;
+  // nack may be lost too; it is put again as long as the samples are missing.
+  virtual void SendNack(const Gap& gap) = 0;
   // To the clock.
   virtual void Tell(const Report& report) = 0;
   // To the node that keeps snapshots; the default keeps none.

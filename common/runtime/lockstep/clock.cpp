@@ -56,7 +56,7 @@ base::Status Clock::Take(const Report& report) {
   SetIncarnation(report.node, report.incarnation);
   recovery_.Heard(report);
   if (rebuilding_ && HeardAll()) {
-    recovery_.TakeOver(reports_, grant_.through);
+    recovery_.InitialiseFrom(reports_, grant_.through);
     rebuilding_ = false;
   }
   SetRecovery();

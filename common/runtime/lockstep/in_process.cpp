@@ -62,7 +62,7 @@ class ThreadedRun {
     while (!Over()) {
       const Wall now = ReadWall();
       DoCommands(now);
-      (void)controller_.Move(now);
+      (void)controller_.Update(now);
       if (const std::string warning = controller_.TakeWarning(); !warning.empty())
         base::Log(base::LogLevel::kWarning, "", warning);
       if (settings_.stop_requested && settings_.stop_requested()) controller_.Stop(now);
@@ -96,7 +96,7 @@ class ThreadedRun {
   struct ThreadBus final : Bus {
     explicit ThreadBus(ThreadedRun& owner) : run(owner) {}
     base::Status Publish(const Sample& sample) override { return run.Route(sample); }
-    void Ask(const Gap&) override {}  // nothing is lost here
+    void SendNack(const Gap&) override {}  // nothing is lost here
     void Tell(const Report& report) override { run.Hear(report); }
     void Keep(const Snapshot& snapshot) override {
       const std::lock_guard lock(run.trace_mutex_);

@@ -19,7 +19,7 @@
 namespace rodeira::lockstep {
 
 // A command of the operator, and the client that its answer is for.
-struct Asked {
+struct OperatorCommand {
   Command command;
   std::function<void(const base::Result<std::string>&)> answer;
 };
@@ -33,7 +33,7 @@ struct InProcessSettings {
   Step first_step = 0;                               // where those snapshots were taken
   std::function<void(const Sample&)> on_sample;      // every sample published; one call at a time
   std::function<void(const Snapshot&)> on_snapshot;  // one call at a time
-  double loss = 0.0;  // RunShuffled: the share of samples and questions that never arrive
+  double loss = 0.0;                                 // RunShuffled: the share of samples and nacks that never arrive
   // RunShuffled: nodes die, with everything that they kept, or are told to end and close what they have open. They are
   // made again where their policy says so (recovery.hpp); otherwise the run ends with the reason as its fault.
   struct Deaths {
@@ -51,10 +51,11 @@ struct InProcessSettings {
     std::function<Step(NodeIndex)> safe;  // of a recorder: samples valid through it are in its file
   };
   Deaths deaths;
-  std::function<bool()> stop_requested;                // asked about every 20 ms
-  std::function<void(const Clock&)> on_progress;       // called now and then on the caller's thread
-  std::function<std::optional<Asked>()> next_command;  // RunThreaded: asked about every 20 ms until it has none
-  std::function<void(const LogBatch&)> on_log;         // RunThreaded: on the caller's thread
+  std::function<bool()> stop_requested;           // asked about every 20 ms
+  std::function<void(const Clock&)> on_progress;  // called now and then on the caller's thread
+  std::function<std::optional<OperatorCommand>()>
+      next_command;                             // RunThreaded: asked about every 20 ms until it has none
+  std::function<void(const LogBatch&)> on_log;  // RunThreaded: on the caller's thread
 };
 
 // How a run of one process ended.

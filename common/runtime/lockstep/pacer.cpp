@@ -56,7 +56,7 @@ void Pacer::Granted(std::int64_t now_ns, Step through) {
   granted_ = through;
 }
 
-void Pacer::GoOn(std::int64_t now_ns, Step through) {
+void Pacer::ContinueFrom(std::int64_t now_ns, Step through) {
   started_ = true;
   granted_ = from_step_ = through;
   from_ns_ = now_ns;

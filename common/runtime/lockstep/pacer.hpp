@@ -31,7 +31,7 @@ class Pacer {
   void Granted(std::int64_t now_ns, Step through);
 
   // A run that was granted through `through` by another clock goes on now.
-  void GoOn(std::int64_t now_ns, Step through);
+  void ContinueFrom(std::int64_t now_ns, Step through);
 
   void Pause(std::int64_t now_ns);  // also ends single steps that are not yet granted
   // The time of the pause is not caught up.

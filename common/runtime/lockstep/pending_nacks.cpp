@@ -3,12 +3,12 @@
 
 namespace rodeira::lockstep {
 
-void PendingNacks::Add(const Nack& question) {
-  const auto& [asker, gap] = question;
-  if (being_answered_ && being_answered_->asker == asker && being_answered_->gap.source == gap.source &&
+void PendingNacks::Add(const Nack& nack) {
+  const auto& [requester, gap] = nack;
+  if (being_answered_ && being_answered_->requester == requester && being_answered_->gap.source == gap.source &&
       being_answered_->gap.from == gap.from)
     return;
-  waiting_[{asker, gap.source}] = gap.from;
+  waiting_[{requester, gap.source}] = gap.from;
 }
 
 std::optional<Nack> PendingNacks::Next() {

@@ -12,21 +12,21 @@ namespace rodeira::lockstep {
 
 // A node that lacks samples, and which.
 struct Nack {
-  NodeIndex asker = 0;
+  NodeIndex requester = 0;
   Gap gap;
 };
 
-// The questions that one process has heard and not answered. An asker repeats itself until it is answered, faster than
-// a long answer can be given; so of each asker and source only the newest question stands, and one that is repeated
-// while it is being answered was answered. Therefore there are never more than askers times sources, however slow the
-// answers are. One thread at a time.
+// The nacks that one process has heard and not answered. An requester repeats itself until it is answered, faster than
+// a long answer can be given; so of each requester and source only the newest nack stands, and one that is repeated
+// while it is being answered was answered. Therefore there are never more than requesters times sources, however slow
+// the answers are. One thread at a time.
 class PendingNacks {
  public:
-  // Takes the place of an older question of this asker about the source. The one that is being answered changes
+  // Takes the place of an older nack of this requester about the source. The one that is being answered changes
   // nothing.
-  void Add(const Nack& question);
-  // The next to be answered, of the askers and sources in turn; that one is being answered until the next call. None:
-  // all are.
+  void Add(const Nack& nack);
+  // The next to be answered, of the requesters and sources in turn; that one is being answered until the next call.
+  // None: all are.
   std::optional<Nack> Next();
   bool empty() const { return waiting_.empty(); }
 

@@ -27,10 +27,10 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
       safe_of_(roster.nodes().size(), -1),
       incarnations_(roster.nodes().size()) {
   policies_.resize(roster.nodes().size(), Policy::kStop);
-  const bool wished =
+  const bool is_restart_wanted =
       std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
-  restarts_ = wished && std::any_of(roster.nodes().begin(), roster.nodes().end(),
-                                    [](const RosterNode& node) { return node.keeps_snapshots(); });
+  restarts_ = is_restart_wanted && std::any_of(roster.nodes().begin(), roster.nodes().end(),
+                                               [](const RosterNode& node) { return node.keeps_snapshots(); });
   for (const RosterNode& node : roster.nodes()) {
     if (node.role != Role::kStepped) continue;
     ahead_ = std::max(ahead_, node.delay);
@@ -73,7 +73,7 @@ Step Recovery::resume() const {
   return resume;
 }
 
-void Recovery::TakeOver(const std::vector<Report>& reports, Step granted) {
+void Recovery::InitialiseFrom(const std::vector<Report>& reports, Step granted) {
   for (NodeIndex n = 0; n < incarnations_.size(); ++n) {
     // A node that is behind after a restart is not sent back, and needs what is valid from its next activation on.
     const bool runs = reports[n].phase >= Phase::kReady && roster_.node(n).role == Role::kStepped;

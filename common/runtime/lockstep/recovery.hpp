@@ -66,7 +66,7 @@ class Recovery {
   Decision Lost(NodeIndex node, Step progress);
   // For a clock that takes the place of a lost one, once it knows what was granted: what any node may still need is
   // kept until the node has come as far as the grant. `reports`: one of each node.
-  void TakeOver(const std::vector<Report>& reports, Step granted);
+  void InitialiseFrom(const std::vector<Report>& reports, Step granted);
 
  private:
   struct Incarnation {

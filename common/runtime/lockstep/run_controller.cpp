@@ -56,7 +56,7 @@ void RunController::PauseAfterSleep(const Wall& now) {
   Pause(now);
 }
 
-Grant RunController::Move(const Wall& now) {
+Grant RunController::Update(const Wall& now) {
   PauseAfterSleep(now);
   if (clock_.grant().final || clock_.grant().abort || !clock_.all_ready()) return clock_.grant();
   if (!begun_) {
@@ -66,7 +66,7 @@ Grant RunController::Move(const Wall& now) {
   }
   if (goes_on_) {  // time begins where it stood
     goes_on_ = false;
-    pacer_.GoOn(now.monotonic_ns, clock_.grant().through);
+    pacer_.ContinueFrom(now.monotonic_ns, clock_.grant().through);
     NoteFault(fmt::format("the clock was lost; this is its incarnation {}", incarnation_ + 1), now);
   }
   const Step before = clock_.grant().through;
@@ -79,7 +79,7 @@ Grant RunController::Move(const Wall& now) {
   return grant;
 }
 
-void RunController::GoOn(std::int64_t begin_ns, bool paused, const Wall& now) {
+void RunController::ContinueRun(std::int64_t begin_ns, bool paused, const Wall& now) {
   begun_ = true;
   goes_on_ = true;
   begin_ns_ = begin_ns;

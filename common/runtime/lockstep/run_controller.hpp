@@ -34,11 +34,11 @@ class RunController {
 
   // Another incarnation of a clock goes on with a run that began at `begin_ns` of the monotonic wall; the log says so
   // where it goes on.
-  void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
+  void ContinueRun(std::int64_t begin_ns, bool paused, const Wall& now);
 
   // The grant that holds now. The run begins at the first call with all nodes ready. A paced run in which this was not
   // called for kSleep_ns, because the PC slept or the process was stopped, is paused.
-  Grant Move(const Wall& now);
+  Grant Update(const Wall& now);
   static constexpr std::int64_t kSleep_ns = 10'000'000'000;
   // What a person should read, each once; empty: nothing.
   std::string TakeWarning() { return std::exchange(warning_, {}); }
@@ -55,7 +55,7 @@ class RunController {
 
   bool begun() const { return begun_; }
   const Pacer& pacer() const { return pacer_; }
-  // How long to wait before the next Move where no node reports, in wall time; 0: nothing is due by itself.
+  // How long to wait before the next Update where no node reports, in wall time; 0: nothing is due by itself.
   std::int64_t NextDueIn(const Wall& now) const;
   // Since the first grant; 0 before.
   std::int64_t RunNs(const Wall& now) const { return begun_ ? now.monotonic_ns - begin_ns_ : 0; }
@@ -77,7 +77,7 @@ class RunController {
   bool begun_ = false;
   bool goes_on_ = false;
   std::int64_t begin_ns_ = 0;
-  std::optional<Wall> moved_;  // the last call of Move
+  std::optional<Wall> moved_;  // the last call of Update
   std::string warning_;
 };
 

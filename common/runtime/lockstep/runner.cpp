@@ -279,7 +279,7 @@ void Runner::RequestRetransmission() {
     default:
       break;
   }
-  for (const Gap& gap : gaps) bus_.Ask(gap);
+  for (const Gap& gap : gaps) bus_.SendNack(gap);
 }
 
 // Of the state as it is, without samples.

@@ -27,7 +27,7 @@ class Runner {
         resume;          // begin here instead of at step 0; one without a state: the node stands there already
     Step sink_from = 0;  // a sink: the first activation at or after this step, instead of a snapshot
     std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
-    std::chrono::milliseconds most_patience{8};  // … doubled after each question up to this
+    std::chrono::milliseconds most_patience{8};  // … doubled after each nack up to this
   };
   // kFailed: refused and lost too; report().phase says which.
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };

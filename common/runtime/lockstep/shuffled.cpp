@@ -58,7 +58,7 @@ class ShuffledRun {
       while (fault_.empty() && in_flight_.size() > 64) DeliverOne();
       idle = moved ? 0 : idle + 1;
       if (idle > patience) {
-        fault_ = "deadlock: " + Standing();
+        fault_ = "deadlock: " + DescribeState();
       }
     }
     RunOutcome outcome = OutcomeOf(*clock_, fault_);
@@ -69,7 +69,7 @@ class ShuffledRun {
 
  private:
   struct Message {
-    enum class Kind { kSample, kSampleBatch, kGrant, kReport, kAsk } kind;
+    enum class Kind { kSample, kSampleBatch, kGrant, kReport, kNack } kind;
     NodeIndex to = 0;
     Sample sample{};
     std::vector<Sample> batch{};
@@ -100,10 +100,10 @@ class ShuffledRun {
         if (whom(n)) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
       }
     }
-    void Ask(const Gap& gap) override {
+    void SendNack(const Gap& gap) override {
       for (NodeIndex n = 0; n < run.buses_.size(); ++n) {
         const bool answers = n == run.roster_.source(gap.source).node || run.buses_[n]->archive;
-        if (answers) run.in_flight_.push_back({.kind = Message::Kind::kAsk, .to = n, .gap = gap});
+        if (answers) run.in_flight_.push_back({.kind = Message::Kind::kNack, .to = n, .gap = gap});
       }
     }
     void Tell(const Report& report) override {
@@ -148,7 +148,7 @@ class ShuffledRun {
     }
     if (Draw(8) != 0) take_out();  // otherwise it stays in flight and arrives once more
     const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kSampleBatch ||
-                             message.kind == Message::Kind::kAsk;
+                             message.kind == Message::Kind::kNack;
     if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
     switch (message.kind) {
       case Message::Kind::kSample:
@@ -160,7 +160,7 @@ class ShuffledRun {
       case Message::Kind::kGrant:
         DeliverGrant(message);
         break;
-      case Message::Kind::kAsk:
+      case Message::Kind::kNack:
         buses_[message.to]->Answer(message.gap);
         break;
       case Message::Kind::kReport:
@@ -268,7 +268,7 @@ class ShuffledRun {
   void LoseAsPlanned() {
     ++turn_;
     for (const PlannedLoss& loss : losses_) {
-      if (loss.turn == turn_) Lose(loss);
+      if (loss.turn == turn_) HandleLoss(loss);
     }
     for (NodeIndex n = 0; n < stopped_.size(); ++n) {
       if (stopped_[n] && turn_ >= stopped_[n]->until) Continue(n);
@@ -279,7 +279,7 @@ class ShuffledRun {
     }
     if (clock_is_dead_ && turn_ >= next_clock_) StartClock();
   }
-  void Lose(const PlannedLoss& loss) {
+  void HandleLoss(const PlannedLoss& loss) {
     const NodeIndex n = loss.node;
     if (n == kClock) return LoseClock(turn_ + loss.lasts_turns);
     if (!MayBeLost(n)) return;
@@ -373,7 +373,7 @@ class ShuffledRun {
     }
     return in_flight_.empty() && !clock_is_dead_ && (clocks_ == 0 || clock_->all_finished());
   }
-  std::string Standing() const {
+  std::string DescribeState() const {
     std::string text;
     for (NodeIndex n = 0; n < runners_.size(); ++n) {
       if (runners_[n] == nullptr) continue;  // a service, or dead

@@ -16,7 +16,7 @@ class SteppedRun::DirectBus final : public Bus {
  public:
   explicit DirectBus(SteppedRun& run) : run_(run) {}
   base::Status Publish(const Sample& sample) override { return run_.Route(sample); }
-  void Ask(const Gap&) override {}  // nothing is lost here
+  void SendNack(const Gap&) override {}  // nothing is lost here
   void Tell(const Report& report) override { run_.Hear(report); }
 
  private:

@@ -40,7 +40,7 @@ void Checker::Contacts(const TrafficModel& model, double time_s, Incidents& inci
   touching_ = now;
 }
 
-void Checker::Look(const TrafficModel& model, double time_s, Incidents& incidents) {
+void Checker::Observe(const TrafficModel& model, double time_s, Incidents& incidents) {
   FindBodies(model);
   Contacts(model, time_s, incidents);
   const bool lights = reds_.any_lights();

@@ -26,7 +26,7 @@ class Checker {
   explicit Checker(const TrafficModel& model);
 
   // Once every so often, after a step.
-  void Look(const TrafficModel& model, double time_s, Incidents& incidents);
+  void Observe(const TrafficModel& model, double time_s, Incidents& incidents);
   const CheckCounts& counts() const { return counts_; }
 
  private:

@@ -111,7 +111,7 @@ bool Spawning::IsClearFor(const SpawningVehicle& next) const {
   const lanes::CurvePoint at = in_.map.graph[next.track].curve.At(next.d_m);
   const driver::Footprint own{next.id,       at.p_W.x(),
                               at.p_W.y(),    std::atan2(at.ahead_W.y(), at.ahead_W.x()),
-                              0.0,           traits.length_m + 2.0 * traits.idm.standing_gap_m,
+                              0.0,           traits.length_m + 2.0 * traits.idm.min_gap_m,
                               traits.width_m};
   for (std::uint32_t other = 0; other < out_.agents.size(); ++other) {
     if (other == next.id || !out_.agents[other].on_road) continue;

@@ -63,35 +63,36 @@ base::Result<std::int64_t> RouteNamed(const DemandSettings& settings, const Flow
 base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks,
                                   const DemandSettings& settings) {
   Demand demand;
-  for (const RouteSettings& wish : settings.routes) {
-    auto route = Route::Make(graph, marks, wish);
+  for (const RouteSettings& route_settings : settings.routes) {
+    auto route = Route::Make(graph, marks, route_settings);
     if (!route) return route.error();
     demand.routes_.push_back(std::move(route).value());
   }
-  for (const FlowSettings& wish : settings.flows) {
+  for (const FlowSettings& flow_settings : settings.flows) {
     Flow flow;
-    if (!wish.lane.empty()) {
-      const auto track = FirstTrackOf(graph, wish.lane, wish.place);
+    if (!flow_settings.lane.empty()) {
+      const auto track = FirstTrackOf(graph, flow_settings.lane, flow_settings.place);
       if (!track) return track.error();
       flow.track = track.value();
     }
-    const auto number = RouteNamed(settings, wish);
+    const auto number = RouteNamed(settings, flow_settings);
     if (!number) return number.error();
     flow.route = number.value();
     if (flow.route >= 0) {
       if (flow.track < 0)
-        return base::WrongInput(
-            "traffic.no_lane_named",
-            fmt::format("the flow of the route '{}' says no lane; one was expected where it comes", wish.route),
-            wish.place);
+        return base::WrongInput("traffic.no_lane_named",
+                                fmt::format("the flow of the route '{}' says no lane; one was expected where it comes",
+                                            flow_settings.route),
+                                flow_settings.place);
       const Route& route = demand.route(flow.route);
       const auto track = static_cast<std::uint32_t>(flow.track);
       if (!route.Reaches(route.LegOn(0, track), track)) {
         return base::WrongInput(
             "traffic.no_way",
-            fmt::format("the route '{}' does not exist from the lane '{}': no way leads from there to '{}'", wish.route,
-                        wish.lane, settings.routes[static_cast<std::size_t>(flow.route)].ways.front()),
-            wish.place);
+            fmt::format("the route '{}' does not exist from the lane '{}': no way leads from there to '{}'",
+                        flow_settings.route, flow_settings.lane,
+                        settings.routes[static_cast<std::size_t>(flow.route)].ways.front()),
+            flow_settings.place);
       }
     }
     demand.flows_.push_back(flow);

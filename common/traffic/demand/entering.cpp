@@ -152,12 +152,12 @@ bool Entering::TryEnter(std::uint32_t id) {
   const bool as_motors = in_.settings.enters == EnterRule::kFree;
   const double free_m = std::max(in_.settings.free_m, traits.length_m + kUntouched_m);  // of the lane, by that rule
   for (const Block& block : in_.blocks[agent.entry]) {
-    if (block.span.rear_m < at_m + (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) &&
+    if (block.span.rear_m < at_m + (as_motors ? free_m : traits.length_m + traits.idm.min_gap_m) &&
         block.span.front_m > 0.0)
       return false;
   }
   const bool looks = in_.settings.driver != DriverKind::kMotors;  // beyond the lane that it enters
-  if (looks && IsExpected(agent.entry, traits.idm.standing_gap_m)) return false;
+  if (looks && IsExpected(agent.entry, traits.idm.min_gap_m)) return false;
   Agent entering = agent;
   entering.on_road = true;
   entering.o_m = at_m + half;
@@ -180,15 +180,15 @@ bool Entering::TryEnter(std::uint32_t id) {
     for (const Piece& piece : out_.agents[other].path) {
       const double rear = out_.agents[other].o_m - 0.5 * in_.traits[other].length_m - piece.zero_m;
       if (piece.track == agent.entry &&
-          rear < at_m + (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m))
+          rear < at_m + (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.min_gap_m))
         return wait();
     }
   }
   const Leader ahead = in_.neighbours.FindLeader(id);
   if (ahead.any) {
     const auto safe = [&](double v) {
-      return ahead.gap_m > 2.0 * traits.idm.standing_gap_m &&
-             ahead.gap_m >= traits.idm.standing_gap_m + v * traits.idm.time_gap_s &&
+      return ahead.gap_m > 2.0 * traits.idm.min_gap_m &&
+             ahead.gap_m >= traits.idm.min_gap_m + v * traits.idm.time_gap_s &&
              driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kSpawnBraking_mps2;
     };
     if (!safe(speed)) speed = std::clamp(ahead.speed_mps, 0.0, speed);

@@ -65,7 +65,7 @@ void Placing::PlaceAll(std::span<const driver::Footprint> others) {
       driver::Footprint own{id,  p.p_W.x(),       p.p_W.y(),           std::atan2(p.ahead_W.y(), p.ahead_W.x()),
                             0.0, traits.length_m, traits.width_m + 0.2};
       for (const driver::Footprint& other : taken) room = room && !driver::Overlap(own, other);
-      own.length_m += 2.0 * in_.settings.idm.standing_gap_m;
+      own.length_m += 2.0 * in_.settings.idm.min_gap_m;
       if (room) taken.push_back(own);
     }
     if (!room) {
@@ -86,7 +86,7 @@ void Placing::PlaceAll(std::span<const driver::Footprint> others) {
     double speed = std::min(in_.limits.Allowed(id, out_.agents[id].o_m).speed_mps * in_.traits[id].speed_factor,
                             in_.traits[id].top_mps);
     if (in_.ahead[id].any) {
-      const double gap = std::max(0.0, in_.ahead[id].gap_m - idm.standing_gap_m);
+      const double gap = std::max(0.0, in_.ahead[id].gap_m - idm.min_gap_m);
       speed = std::min({speed, gap / (in_.ahead[id].id < 0 ? 2.0 * idm.time_gap_s : idm.time_gap_s),
                         std::sqrt(2.0 * idm.braking_mps2 * gap)});
     }

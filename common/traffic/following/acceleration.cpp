@@ -35,13 +35,13 @@ double Acceleration::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::All
   const double wanted = here.slope_1ps * share * v + (here.speed_mps * share - v) / in_.settings.tracking_s;
   double way = 0.0, there = 0.0, slows = -in_.settings.speed.braking_mps2;
   for (int turn = 0; turn < 2; ++turn) {  // as far as the hardest braking of a plan asks, then as far as this one
-    if (agent.wish_mps2 <= slows) return wanted;
-    way = v * (agent.wish_mps2 - slows) / twice_jerk;
+    if (agent.desired_mps2 <= slows) return wanted;
+    way = v * (agent.desired_mps2 - slows) / twice_jerk;
     const driver::SpeedPlan::Allowed soon = in_.limits.Allowed(id, agent.o_m + way);
     there = soon.speed_mps * share;
     slows = soon.slope_1ps * share * std::min(v, there);
   }
-  if (agent.wish_mps2 <= slows) return wanted;
+  if (agent.desired_mps2 <= slows) return wanted;
   const double line = std::sqrt(std::max(0.0, there * there - 2.0 * slows * way));  // that of then, as it would be here
   return std::min(wanted, slows + (line - v) / in_.settings.tracking_s);
 }
@@ -81,7 +81,7 @@ double Acceleration::Wanted(std::uint32_t id) const {
                                 : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps);
     const bool against =
         ahead.id < 0 && ahead.speed_mps < kComes_mps && behind < -kEvades_mps2;  // that one may not stop
-    wanted = std::min(wanted, against ? -idm.hardest_mps2 : behind);
+    wanted = std::min(wanted, against ? -idm.max_deceleration_mps2 : behind);
   }
   if (in_.passages[id].any && in_.passages[id].due)
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
@@ -98,7 +98,7 @@ double Acceleration::Wanted(std::uint32_t id) const {
   if (in_.bars[id] < kNoBarrier_m) wanted = std::min(wanted, in_.following.StopAt(id, in_.bars[id], kYieldingShare));
   wanted = std::min(wanted, in_.leaves[id]);
   wanted = std::min({wanted, in_.oncoming.WantedForOvertaker(id, limit), in_.lane_changes.WantedCourteous(id, limit)});
-  wanted = std::clamp(in_.overtaking.WantedBeside(id, wanted), -idm.hardest_mps2, idm.acceleration_mps2);
+  wanted = std::clamp(in_.overtaking.WantedBeside(id, wanted), -idm.max_deceleration_mps2, idm.acceleration_mps2);
   return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }
 

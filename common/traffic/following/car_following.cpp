@@ -55,7 +55,7 @@ double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m
 double CarFollowing::FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const {
   const Agent& other = in_.agents[leader];
   return driver::AccAcceleration(in_.traits[id].idm, in_.agents[id].speed_mps, in_.limits.Desired_mps(id), gap_m,
-                                 other.speed_mps, other.wish_mps2);
+                                 other.speed_mps, other.desired_mps2);
 }
 
 }  // namespace rodeira::traffic

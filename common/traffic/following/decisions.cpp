@@ -83,9 +83,9 @@ bool Decisions::IsPressed(std::uint32_t id) const {
   if (out_.decided[id].wanted_mps2 < -b) return true;
   if (!ahead.any) return false;
   const double closes = v - ahead.speed_mps,
-               room = std::max(kMinRoom_m, ahead.gap_m - 0.5 * in_.traits[id].idm.standing_gap_m);
+               room = std::max(kMinRoom_m, ahead.gap_m - 0.5 * in_.traits[id].idm.min_gap_m);
   return (closes > 0.0 && (closes * closes > 2.0 * b * room || room < kSoon_s * closes)) ||
-         in_.agents[static_cast<std::size_t>(ahead.id)].wish_mps2 < -b;
+         in_.agents[static_cast<std::size_t>(ahead.id)].desired_mps2 < -b;
 }
 
 }  // namespace rodeira::traffic

@@ -18,7 +18,7 @@ constexpr double kCreeps_mps = 1.0;
 
 double Acceleration::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
   const Agent& agent = in_.agents[id];
-  const double before = agent.wish_mps2, v = agent.speed_mps, b = in_.traits[id].idm.braking_mps2;
+  const double before = agent.desired_mps2, v = agent.speed_mps, b = in_.traits[id].idm.braking_mps2;
   const driver::SmoothSettings& smooth = in_.settings.smooth;
   out_.hurries[id] = 0;
   if (agent.brake_mps2 > 0.0) return wanted_mps2;
@@ -33,7 +33,7 @@ double Acceleration::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s)
       !(in_.ahead[id].any &&
         (in_.ahead[id].speed_mps < 0.0 || in_.ahead[id].gap_m < driver::SmoothStop_m(v, before, smooth.planned_mps3)));
   const bool hurries = -before > std::min(kHarder * b, can_let_go + smooth.planned_mps3 * dt_s + kRounding_mps2) ||
-                       (wanted_mps2 <= -in_.traits[id].idm.hardest_mps2 && !parts && !at_line) || longer;
+                       (wanted_mps2 <= -in_.traits[id].idm.max_deceleration_mps2 && !parts && !at_line) || longer;
   out_.hurries[id] = hurries ? 1 : 0;
   const double jerk = hurries ? smooth.emergency_mps3 : smooth.planned_mps3;
   const double hardest = hurries    ? driver::EasedStop_mps2(v, jerk, dt_s)

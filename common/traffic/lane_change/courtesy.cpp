@@ -18,7 +18,7 @@ constexpr double kQueued_mps = 1.0, kQueued_m = 12.0;  // a vehicle so slow and 
 double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];
-  double wanted = traits.idm.hardest_mps2;
+  double wanted = traits.idm.max_deceleration_mps2;
   const double front = FrontOf(out_.agents[id], in_.traits[id]);
   const auto beside_it = [&](const RouteSegment& stretch) { return stretch.has_beside && stretch.begin_m <= front; };
   if (agent.change.side != 0 || std::none_of(out_.stretches[id].begin(), out_.stretches[id].end(), beside_it))
@@ -39,7 +39,7 @@ double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
       const double gap = other.rear_m - there - 0.5 * traits.length_m;
       if (gap >= out_.ahead[id].gap_m) break;
       if (in_.lanes_beside.IsShutIn(other.id) || (is_queued(other.id) && !GoesRound(other.id))) continue;
-      if (out_.agents[other.id].seeks && gap > traits.idm.standing_gap_m &&
+      if (out_.agents[other.id].seeks && gap > traits.idm.min_gap_m &&
           (in_.lanes_beside.FewerChanges(other.id, here.track) > 0 || in_.lanes_beside.EndAhead(other.id) ||
            GoesRound(other.id))) {
         wanted = std::min(wanted, std::max(-kCourtesy_mps2, driver::IdmAcceleration(traits.idm, agent.speed_mps,

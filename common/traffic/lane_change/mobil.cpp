@@ -89,10 +89,10 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
       id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Follower follower =
       in_.neighbours.FindFollower(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
-  if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
+  if (ahead.any && ahead.gap_m < traits.idm.min_gap_m) return std::nullopt;
   if (!told && blocked < (goes_round ? *round - FrontOf(agent, traits) + kFartherOn_m : kNoBarrier_m))
     return std::nullopt;
-  if (follower.any && follower.gap_m < in_.settings.idm.standing_gap_m) return std::nullopt;
+  if (follower.any && follower.gap_m < in_.settings.idm.min_gap_m) return std::nullopt;
   const double at = piece->begin_m - piece->zero_m;
   driver::MobilCase mobil;
   mobil.own_mps2 = in_.following.Following(

@@ -39,7 +39,7 @@ class Crashes {
   void StepCrashed(double dt_s);
 
  private:
-  double HeightAt(const Crashed& struck, double near_z_m) const;
+  double HeightAt(const Crashed& crashed, double near_z_m) const;
 
   Reads in_;
   Writes out_;

@@ -104,7 +104,7 @@ int NextGear(const DriveDemand& demand, const Driving& before) {
   return gear;
 }
 
-Driving Standing(const PlanarCar& car, double grade) {
+Driving AtRest(const PlanarCar& car, double grade) {
   const dynamics::BicycleSettings& of = car.settings();
   return {0.0, std::min(1.0, kHolding + of.body.mass_kg * base::kGravity_mps2 * std::fabs(grade) / car.full_brake_N()),
           1.0, of.powertrain.engine.idle_radps, 1};
@@ -160,7 +160,7 @@ double FuelFlowWith_mgps(const PlanarCar& car, const Driving& driving, const Tor
 }  // namespace
 
 Driving DrivingFor(const PlanarCar& car, double speed_mps, double acceleration_mps2, double grade) {
-  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
+  if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return AtRest(car, grade);
   const DriveDemand demand(car, speed_mps, acceleration_mps2, grade);
   const int gear = BestGear(demand);
   return DrivingIn(gear, demand, TorquesIn(gear, demand));
@@ -198,7 +198,7 @@ double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, doub
 Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade,
              double dt_s) {
   if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) {
-    const Driving held = Standing(car, grade);
+    const Driving held = AtRest(car, grade);
     return {held, AccelerationWith(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()),
             FuelFlowWith_mgps(car, held, car.idling())};
   }

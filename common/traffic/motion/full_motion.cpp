@@ -60,7 +60,7 @@ void FullMotion::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) {
       id, wanted_mps2,
       {rear.p_W.head<2>() + aside * left, rear.ahead_W, HeadingChange_rad(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
   const bool stands = agent.speed_mps <= 0.0 || out_.full->foot(id).holds();  // whatever is wanted below 0
-  agent.wish_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
+  agent.desired_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
 }
 
 void FullMotion::FollowFull(std::uint32_t id, double dt_s) {

@@ -68,7 +68,7 @@ void PlanarMotion::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
   Agent& agent = out_.agents[id];
   const double before = agent.speed_mps;
   const PlanarCar& car = PlanarCarOfBody(in_.traits[id].body);
-  const double at_most = AtMostBeforeChange_mps2(car, agent.driving, before, agent.wish_mps2, agent.grade,
+  const double at_most = AtMostBeforeChange_mps2(car, agent.driving, before, agent.desired_mps2, agent.grade,
                                                  in_.settings.smooth.planned_mps3);
   const Driven driven = Drive(car, agent.driving, before, std::min(wanted_mps2, at_most), agent.grade, dt_s);
   agent.driving = driven.driving;
@@ -79,7 +79,7 @@ void PlanarMotion::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
     after = 0.0;
     travel = acceleration < 0.0 ? -0.5 * before * before / acceleration : 0.0;
   }
-  agent.acceleration_mps2 = agent.wish_mps2 = (after - before) / dt_s;  // it goes on from what the car can
+  agent.acceleration_mps2 = agent.desired_mps2 = (after - before) / dt_s;  // it goes on from what the car can
   agent.speed_mps = after;
   agent.driven_m += travel;
   agent.fuel_mgps = driven.fuel_mgps;

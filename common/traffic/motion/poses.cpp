@@ -84,8 +84,8 @@ AgentPose Poses::PoseOfCrashed(std::uint32_t id) const {
   AgentPose pose;
   pose.id = id;
   pose.trip = agent.trip;
-  pose.p_WB_W = {agent.struck.p_W.x(), agent.struck.p_W.y(), agent.struck_z_m};
-  pose.q_WB = Eigen::AngleAxisd(agent.struck.heading_rad, Eigen::Vector3d::UnitZ());
+  pose.p_WB_W = {agent.crashed.p_W.x(), agent.crashed.p_W.y(), agent.crashed_z_m};
+  pose.q_WB = Eigen::AngleAxisd(agent.crashed.heading_rad, Eigen::Vector3d::UnitZ());
   pose.speed_mps = agent.speed_mps;
   pose.acceleration_mps2 = agent.acceleration_mps2;
   pose.braking = true;

@@ -83,9 +83,9 @@ void MotorsDriver::Shift(double engine_radps, int gears, double dt_s) {
     if (change_ > 1.0) changes_ = false, change_ = 0.0;
   }
   pause_s_ = std::max(0.0, pause_s_ - dt_s);
-  const int wish = engine_radps > kUp_radps ? 1 : engine_radps < kDown_radps ? -1 : 0;
-  if (wish == 0 || pause_s_ > 0.0 || gear_ + wish < 1 || gear_ + wish > gears) return;
-  gear_ += wish;
+  const int shift = engine_radps > kUp_radps ? 1 : engine_radps < kDown_radps ? -1 : 0;
+  if (shift == 0 || pause_s_ > 0.0 || gear_ + shift < 1 || gear_ + shift > gears) return;
+  gear_ += shift;
   changes_ = true;
   pause_s_ = kPause_s;
 }

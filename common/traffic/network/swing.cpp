@@ -128,7 +128,7 @@ class Swinger {
            next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;
     while (o < end_m) {
       const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
-      if (o >= next_look_m) Look(path, rear + half_base * ahead, ahead, o), next_look_m += kOutlineStep_m;
+      if (o >= next_look_m) RecordOutline(path, rear + half_base * ahead, ahead, o), next_look_m += kOutlineStep_m;
       const double speed =
           std::max(kMinSwingSpeed_mps,
                    share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
@@ -167,7 +167,7 @@ class Swinger {
   }
 
   // Notes the outline of the car here at the nodes beside it.
-  void Look(const Path& path, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double o) {
+  void RecordOutline(const Path& path, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double o) {
     const Eigen::Vector2d left(-ahead.y(), ahead.x());
     const double half = 0.5 * largest_.length_m;
     const auto count = static_cast<int>(std::ceil(largest_.length_m / kOutline_m));

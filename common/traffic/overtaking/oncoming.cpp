@@ -70,7 +70,7 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
 double OncomingLane::WantedForOvertaker(std::uint32_t id, double limit_mps) const {
   const Agent& agent = in_.agents[id];
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m, v = agent.speed_mps;
-  double wanted = in_.traits[id].idm.hardest_mps2;
+  double wanted = in_.traits[id].idm.max_deceleration_mps2;
   if (!in_.any_facing) return wanted;
   for (const RouteSegment& stretch : in_.stretches[id]) {
     for (const OncomingOvertaker& other : in_.facing[stretch.track]) {

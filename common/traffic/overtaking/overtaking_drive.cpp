@@ -32,7 +32,7 @@ double ShortestBack_m(double aside_m, double speed_mps) {
 bool OvertakingDrive::MayGoBack(std::uint32_t id, bool behind) const {
   const Agent& agent = out_.agents[id];
   const Piece& last = agent.path.back();
-  const double half = 0.5 * in_.traits[id].length_m, v = agent.speed_mps, gap = in_.traits[id].idm.standing_gap_m;
+  const double half = 0.5 * in_.traits[id].length_m, v = agent.speed_mps, gap = in_.traits[id].idm.min_gap_m;
   if (agent.o_m + half < last.blend_from_m + last.blend_m) return false;  // still on its path out
   const Follower follower =
       in_.neighbours.FindFollower(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
@@ -114,7 +114,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   // Falling back: slower than that one until it is behind, and back.
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
                least = std::max(1.0, passed->speed_mps - slower);
-  const double behind_m = std::max(0.0, in_.traits[id].idm.standing_gap_m - passed->gap_m);
+  const double behind_m = std::max(0.0, in_.traits[id].idm.min_gap_m - passed->gap_m);
   const double still_out = std::max(0.0, agent.path.back().blend_from_m + agent.path.back().blend_m - front) / v;
   const double time =
       std::max(still_out, std::max(0.0, v - slower) / kFallsBack_mps2 + behind_m / least) + pass.back_s + length / v;
@@ -144,7 +144,7 @@ double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const
     return std::min(wanted_mps2, in_.following.StopAt(id, std::max(stands - kRoomToGoRound_m, soonest)));
   }
   if (!way.gives_up) return wanted_mps2;
-  if (!passed || passed->gap_m > in_.traits[id].idm.standing_gap_m) return wanted_mps2;
+  if (!passed || passed->gap_m > in_.traits[id].idm.min_gap_m) return wanted_mps2;
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps);
   return std::min(wanted_mps2, std::clamp((slower - agent.speed_mps) / in_.settings.tracking_s, -kFallsBack_mps2, 0.5));
 }

@@ -70,7 +70,7 @@ PassCase OvertakingStart::CaseOf(std::uint32_t id, const Leader& passed, double 
   }
   pass.gains_mps2 *= kOfHaste;
   pass.relative_m = std::max(
-      0.0, passed.gap_m + passed.length_m + traits.idm.standing_gap_m + kBackGap_s * pass.passed_mps + traits.length_m);
+      0.0, passed.gap_m + passed.length_m + traits.idm.min_gap_m + kBackGap_s * pass.passed_mps + traits.length_m);
   pass.back_s = LaneChangeTime_s(aside_m), pass.back_least_m = kMinLaneChangeLength_m;
   pass.length_m = traits.length_m;
   return pass;

@@ -65,7 +65,7 @@ bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
   const double limit = in_.limits.Limit_mps(id, track, out_.agents[id].o_m - out_.agents[id].path.back().zero_m);
   if (limit < ahead.speed_mps + GainFor(out_.agents[id])) return false;
   if (out_.agents[id].told_past)
-    return ahead.gap_m < in_.traits[id].idm.standing_gap_m + kToldNear_s * out_.agents[id].speed_mps;
+    return ahead.gap_m < in_.traits[id].idm.min_gap_m + kToldNear_s * out_.agents[id].speed_mps;
   if (Stands(ahead) && PassesStanding_m(id)) return true;
   return in_.following.Following(id, limit, true, ahead.gap_m, ahead.speed_mps) <
          in_.following.Following(id, limit, false, 0.0, 0.0) - kHeldUp_mps2;
@@ -134,8 +134,8 @@ bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, con
   if (!next.any) return true;
   const double v = std::max(0.0, passed.speed_mps);
   const double there = next.gap_m - passed.gap_m - passed.length_m + (next.speed_mps - v) * plan.gaining_s -
-                       traits.idm.standing_gap_m - kBackGap_s * v - traits.length_m;
-  if (there < traits.idm.standing_gap_m + kRoom_s * plan.speed_mps) return false;
+                       traits.idm.min_gap_m - kBackGap_s * v - traits.length_m;
+  if (there < traits.idm.min_gap_m + kRoom_s * plan.speed_mps) return false;
   return driver::IdmAcceleration(traits.idm, plan.speed_mps, top_mps, there, next.speed_mps) >= -kBrakes_mps2;
 }
 
@@ -145,8 +145,7 @@ std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaki
   const AgentTraits& traits = in_.traits[id];
   const Leader& passed = in_.ahead[id];
   const double front = out_.agents[id].o_m + 0.5 * traits.length_m, v = out_.agents[id].speed_mps,
-               fast = std::max(v, kSlowest_mps),
-               clear_m = Stands(passed) ? kStandingClear_m : traits.idm.standing_gap_m;
+               fast = std::max(v, kSlowest_mps), clear_m = Stands(passed) ? kStandingClear_m : traits.idm.min_gap_m;
   const Oncoming oncoming = in_.oncoming.FindOncoming(id);
   if (oncoming.own_way) return std::nullopt;
   std::optional<Piece> piece;

@@ -66,7 +66,7 @@ void Crosswalks::CarsAtCrossings() {
           continue;
         }
         const bool yields = out_.yielding[id].crossing == on.crossing + 1 &&
-                            v * v <= 2.0 * in_.traits[id].idm.hardest_mps2 * (in - front);
+                            v * v <= 2.0 * in_.traits[id].idm.max_deceleration_mps2 * (in - front);
         const bool able = yields || v < kStandstill_mps ||
                           NeedsToStop(v, kYieldingShare * in_.traits[id].idm.braking_mps2) <= line - front;
         out_.to_crossings.push_back({id, on.crossing, on.pass, std::max(front, line), able});
@@ -90,7 +90,7 @@ void Crosswalks::CarsAtCrossings() {
     if (!to.able ||
         (v >= kStandstill_mps && out_.yielding[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m))
       out_.at_crossings[to.crossing].held = true;
-    queue_m += in_.traits[to.id].length_m + in_.settings.idm.standing_gap_m;
+    queue_m += in_.traits[to.id].length_m + in_.settings.idm.min_gap_m;
   }
 }
 

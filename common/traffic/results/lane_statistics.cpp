@@ -61,7 +61,7 @@ void LaneStatistics::PourAll() const {
 }
 
 // Its middle is on that track now.
-void LaneStatistics::GoOnto(std::uint32_t id, std::uint32_t track) {
+void LaneStatistics::EnterTrack(std::uint32_t id, std::uint32_t track) {
   if (now_[id].to == track) return;
   ++counts_[now_[id].to].out, ++counts_[track].in;
   now_[id].to = track;
@@ -70,8 +70,8 @@ void LaneStatistics::GoOnto(std::uint32_t id, std::uint32_t track) {
 // The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known
 // counts to its first piece. Pieces that come later begin at its front bumper or beyond, so that as far as there the
 // last cell is its own.
-void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m,
-                           const LaneCell& sum) {
+void LaneStatistics::Distribute(const TrafficModel& model, std::uint32_t id, double from_m, double to_m,
+                                const LaneCell& sum) {
   const auto& path = model.agent(id).path;
   const double way = to_m - from_m, sure_m = to_m + 0.5 * model.traits(id).length_m;
   Seen& seen = seen_[id];
@@ -80,7 +80,7 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool last = i + 1 == path.size();
     if (!last && path[i + 1].begin_m <= at && path[i + 1].begin_m < to_m) continue;
-    GoOnto(id, path[i].track);
+    EnterTrack(id, path[i].track);
     const double end = last ? to_m : std::min(to_m, path[i + 1].begin_m);
     const auto& [first, count, length] = tracks_[path[i].track];
     LaneCell* const cells = cells_.data() + first;
@@ -169,7 +169,7 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
         seen.sum.distance_m += step.distance_m, seen.sum.time_s += step.time_s, seen.sum.fuel_mg += step.fuel_mg;
       } else {
         Pour(seen);
-        Share(model, id, seen.o_m, agent.o_m, step);
+        Distribute(model, id, seen.o_m, agent.o_m, step);
       }
     } else {
       seen.until_m = kNowhere_m;

@@ -115,8 +115,8 @@ class LaneStatistics {
   };
   static constexpr double kNowhere_m = -1e18;
 
-  void Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
-  void GoOnto(std::uint32_t id, std::uint32_t track);
+  void Distribute(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum);
+  void EnterTrack(std::uint32_t id, std::uint32_t track);
   void Pour(Seen& seen) const;
   void PourAll() const;
   void FetchFor(const TrafficModel& model, std::uint32_t id) const;

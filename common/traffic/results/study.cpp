@@ -69,12 +69,12 @@ class Watcher {
       const double error = std::fabs(moved - told);
       if (error > Untold_m()) Tell("moved {:.4f} m instead of {:.4f} m", pose, moved, told);
       result_.worst_step_m = std::max(result_.worst_step_m, error);
-      result_.hardest_any_mps2 = std::max(result_.hardest_any_mps2, -pose.acceleration_mps2);
+      result_.max_deceleration_any_mps2 = std::max(result_.max_deceleration_any_mps2, -pose.acceleration_mps2);
       const double brake = model.agent(pose.id).driving.brake;
       if (brake <= 0.0) continue;  // a hill that the engine is too weak for
       if (pose.acceleration_mps2 < -kHard_mps2 && was.acceleration_mps2 >= -kHard_mps2)
         Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
-      result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
+      result_.max_deceleration_mps2 = std::max(result_.max_deceleration_mps2, -pose.acceleration_mps2);
       if (pose.speed_mps < kMoving_mps) continue;
       result_.foot_mps2 = std::max(result_.foot_mps2, brake * full_brake_mps2_[model.traits(pose.id).body]);
     }
@@ -212,7 +212,7 @@ base::Result<StudyResult> Study(const StudySettings& settings, base::Result<Traf
       note();
       continue;
     }
-    if (checker) checker->Look(model, static_cast<double>(k) * settings.step_s, incidents);
+    if (checker) checker->Observe(model, static_cast<double>(k) * settings.step_s, incidents);
     watcher.Stand(model);
     if (lanes) {
       lanes->LookAtQueues(model);

@@ -38,13 +38,13 @@ struct StudyResult {
   std::uint32_t longest_stand_id = 0;
   double longest_with_room_s = 0.0;  // the part of one stand in which there was room ahead (TrafficModel::RoomAhead)
   std::uint32_t longest_with_room_id = 0;
-  bool checked = false;         // the next four were looked for
-  std::int64_t collisions = 0;  // times that two boxes on one level came to overlap
-  std::int64_t reds = 0;        // times that a front passed a red light
-  std::int64_t off_lane = 0;    // times that a middle was seen beside every drivable lane
-  std::int64_t wheels_off = 0;  // times that a wheel was seen beside all lanes and shoulders
-  double worst_step_m = 0.0;    // |distance between two poses - mean speed · step|, in plan
-  double hardest_mps2 = 0.0;    // deceleration with a foot on the brake, whatever else slows the car down
+  bool checked = false;                // the next four were looked for
+  std::int64_t collisions = 0;         // times that two boxes on one level came to overlap
+  std::int64_t reds = 0;               // times that a front passed a red light
+  std::int64_t off_lane = 0;           // times that a middle was seen beside every drivable lane
+  std::int64_t wheels_off = 0;         // times that a wheel was seen beside all lanes and shoulders
+  double worst_step_m = 0.0;           // |distance between two poses - mean speed · step|, in plan
+  double max_deceleration_mps2 = 0.0;  // deceleration with a foot on the brake, whatever else slows the car down
   double foot_mps2 = 0.0;  // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (a car
                            // that stands is held by it)
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
@@ -52,7 +52,7 @@ struct StudyResult {
   std::int64_t hurried_steps = 0;    // steps driven in an emergency (TrafficModel::Hurries), each vehicle's counted
   double lateral_mps2 = 0.0;         // largest speed times yaw rate, and change of the yaw rate
   double yaw_radps2 = 0.0;
-  double hardest_any_mps2 =
+  double max_deceleration_any_mps2 =
       0.0;  // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
   std::int64_t arrivals = 0;  // trips that ended
   std::int64_t began = 0, entered = 0,

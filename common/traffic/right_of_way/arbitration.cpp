@@ -48,7 +48,7 @@ void RightOfWay::Arbitrate(double dt_s) {
       out_.order.push_back(id);
     if (passage.head) out_.heads.push_back(id);
   }
-  out_.claims.AskForZones();
+  out_.claims.RequestZones();
   for (const std::uint32_t id : out_.coming) out_.claims.ComeToZones(id);
   out_.claims.OthersAtZones();
   // Those that have lost patience, by how long; then by when they come to the line, as told by their own motion; then
@@ -71,8 +71,7 @@ void RightOfWay::Arbitrate(double dt_s) {
     }
     // No other takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if
     // that one is shorter.
-    const bool comes_free =
-        !passage.able && passage.lacks_m < in_.traits[id].length_m + in_.settings.idm.standing_gap_m;
+    const bool comes_free = !passage.able && passage.lacks_m < in_.traits[id].length_m + in_.settings.idm.min_gap_m;
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0 || !(passage.able || (comes_free && out_.grants.TakesRoom(crossing)))) continue;
       const auto zone = static_cast<std::size_t>(crossing.zone), theirs = static_cast<std::size_t>(1 - crossing.side);

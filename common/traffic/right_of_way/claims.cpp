@@ -53,7 +53,7 @@ void Claims::HoldZones(std::uint32_t id) {
   }
 }
 
-void Claims::AskForZones() {
+void Claims::RequestZones() {
   for (const std::uint32_t side : out_.asked_sides) out_.is_asked[side] = 0;
   out_.asked_sides.clear();
   for (const std::uint32_t id : in_.order) {
@@ -101,7 +101,7 @@ double Claims::ClearsAt(const ApproachingVehicle& comer) const {
 double Claims::ComesWithin(const ApproachingVehicle& comer, double way_m) const {
   const Agent& agent = out_.agents[comer.id];
   return TravelTime(way_m, agent.speed_mps, in_.limits.AllowedAt(comer.id, comer.in_m), in_.traits[comer.id].start_mps2,
-                    {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+                    {agent.desired_mps2, in_.settings.smooth.planned_mps3});
 }
 
 bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
@@ -112,10 +112,10 @@ bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Appro
   const Agent& agent = out_.agents[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;
   const double arrives = TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
-                                    in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+                                    in_.traits[id].start_mps2, {agent.desired_mps2, in_.settings.smooth.planned_mps3});
   if (!(comes_s > arrives + kLag_s)) return false;
   const double way = comer.out_m - FrontOf(out_.agents[comer.id], in_.traits[comer.id]), ends = ComesWithin(comer, way);
-  const double comes = way * clears_s / std::max(0.1, ends), may_come = way - in_.settings.idm.standing_gap_m;
+  const double comes = way * clears_s / std::max(0.1, ends), may_come = way - in_.settings.idm.min_gap_m;
   return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 

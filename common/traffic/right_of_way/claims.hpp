@@ -47,7 +47,7 @@ class Claims {
   // Its own are the zones that are granted to it and those that it stands in.
   void HoldZones(std::uint32_t id);
   // The sides of zones that matter to agents that may get a reservation now.
-  void AskForZones();
+  void RequestZones();
   // A head that waits to be granted its zones comes to them; without a query it is not told.
   void ComeToZones(std::uint32_t id);
   // Its front at the zone's beginning.

@@ -24,7 +24,7 @@ std::int64_t Deadlocks::WaitsFor(std::uint32_t id) const {
   const Leader& ahead = in_.ahead[id];
   const ConflictPassage& passage = in_.passages[id];
   const bool is_in = !out_.agents[id].grants.empty();
-  if (is_in && ahead.id >= 0 && ahead.gap_m < in_.traits[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
+  if (is_in && ahead.id >= 0 && ahead.gap_m < in_.traits[id].idm.min_gap_m + kQueuedGap_m) return ahead.id;
   const std::int64_t keeps = is_in ? in_.merging.KeptInZonesBy(id) : -1;
   if (keeps >= 0) return keeps;
   if (passage.any && passage.head && passage.due) return passage.waits_for;

@@ -19,7 +19,7 @@ constexpr double kZipSpeed_mps = 7.0,
                  kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
 
 // The side of the last reservation of a zone, by both sides; -1: there is none.
-int LastLetIn(const ReservationTable& book, std::size_t zone, std::size_t agents) {
+int LastGranted(const ReservationTable& book, std::size_t zone, std::size_t agents) {
   int last = -1;
   std::uint64_t number = 0;
   for (const int side : {0, 1}) {
@@ -70,10 +70,10 @@ bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
       const double way_out = holder.out_m - other.o_m + 0.5 * in_.traits[holder.id].length_m;
       const double clears =
           TravelTime(way_out, other.speed_mps, in_.limits.AllowedAt(holder.id, holder.out_m),
-                     in_.traits[holder.id].start_mps2, {other.wish_mps2, in_.settings.smooth.planned_mps3});
+                     in_.traits[holder.id].start_mps2, {other.desired_mps2, in_.settings.smooth.planned_mps3});
       if (arrives < 0.0)
         arrives = TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
-                             in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+                             in_.traits[id].start_mps2, {agent.desired_mps2, in_.settings.smooth.planned_mps3});
       if (holder.sure && (clears < arrives + kBehind_s || in_.merging.MayFollow(id, crossing, holder)) &&
           RoomBehind(id, crossing, holder))
         continue;
@@ -83,8 +83,9 @@ bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
     return true;
   }
   if (!heeded) return false;
-  if (const ReservationTable::Wish wish = out_.book.RoomWanted(zone, mine); wish.waited_s > agent.waited_s) {
-    out_.passages[id].waits_for = static_cast<std::int64_t>(wish.id);
+  if (const ReservationTable::SpaceRequest request = out_.book.RoomWanted(zone, mine);
+      request.waited_s > agent.waited_s) {
+    out_.passages[id].waits_for = static_cast<std::int64_t>(request.id);
     return true;
   }
   return out_.book.IsAwaited(zone, mine) && !Urgent(id);
@@ -105,11 +106,11 @@ double Grants::ClearsBehindLeader(std::uint32_t id, double out_m) const {
   const auto leader = static_cast<std::uint32_t>(ahead.id);
   const double own_rear_there = out_m + in_.traits[id].length_m;  // odometer of the front
   const double its_rear = out_.agents[id].o_m + 0.5 * in_.traits[id].length_m + ahead.gap_m;
-  const double way = own_rear_there + in_.traits[id].idm.standing_gap_m - its_rear;
+  const double way = own_rear_there + in_.traits[id].idm.min_gap_m - its_rear;
   if (way <= 0.0) return 0.0;
-  return in_.traits[id].idm.time_gap_s + TravelTime(way, ahead.speed_mps, in_.limits.Desired_mps(leader),
-                                                    in_.traits[leader].start_mps2,
-                                                    {out_.agents[leader].wish_mps2, in_.settings.smooth.planned_mps3});
+  return in_.traits[id].idm.time_gap_s +
+         TravelTime(way, ahead.speed_mps, in_.limits.Desired_mps(leader), in_.traits[leader].start_mps2,
+                    {out_.agents[leader].desired_mps2, in_.settings.smooth.planned_mps3});
 }
 
 // Whether one with priority is about to come to the zone before this one is out of it. Where lanes zip, it is the
@@ -120,12 +121,12 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(index)];
   const auto comers = out_.book.ApproachingTo(index, static_cast<std::size_t>(theirs));
   if (comers.empty()) return false;
-  const int last = in_.map.zips[index] ? LastLetIn(out_.book, index, out_.agents.size()) : -1;
+  const int last = in_.map.zips[index] ? LastGranted(out_.book, index, out_.agents.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = out_.agents[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * in_.traits[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, in_.limits.AllowedAt(id, crossing.out_m),
-                                   in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+                                   in_.traits[id].start_mps2, {agent.desired_mps2, in_.settings.smooth.planned_mps3});
   const double follows = ClearsBehindLeader(id, crossing.out_m);
   for (const ApproachingVehicle& comer : comers) {
     if (comer.id == id) continue;
@@ -148,7 +149,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
     out_.passages[id].delay_s =
         in_.claims.ClearsAt(comer) - TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
                                                 in_.traits[id].start_mps2,
-                                                {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+                                                {agent.desired_mps2, in_.settings.smooth.planned_mps3});
     return true;
   }
   return false;

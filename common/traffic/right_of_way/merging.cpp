@@ -67,7 +67,7 @@ void Merging::YieldInZones(std::uint32_t id) {
   if (agent.eased_for >= 0 || eased_for < 0 || ahead.id != eased_for) return;
   const Agent& other = out_.agents[static_cast<std::size_t>(eased_for)];
   if (!driver::AccIsIdm(in_.traits[id].idm, agent.speed_mps, in_.limits.Desired_mps(id), ahead.gap_m, ahead.speed_mps,
-                        other.wish_mps2))
+                        other.desired_mps2))
     agent.eased_for = eased_for;
 }
 

@@ -126,7 +126,7 @@ void Passages::FindCrossings(std::uint32_t id) {
   }
   passage.crossings = std::move(crossings);
   if (!passage.any) return;
-  passage.room_m = passage.end_m + in_.traits[id].length_m + in_.settings.idm.standing_gap_m + kLoose_m;
+  passage.room_m = passage.end_m + in_.traits[id].length_m + in_.settings.idm.min_gap_m + kLoose_m;
 }
 
 void Passages::ComeToLine(std::uint32_t id, double dt_s) {
@@ -137,7 +137,7 @@ void Passages::ComeToLine(std::uint32_t id, double dt_s) {
         std::remove_if(agent.grants.begin(), agent.grants.end(),
                        [&](const ZoneGrant& grant) { return std::max(grant.to_m, grant.clear_m) <= agent.o_m - half; }),
         agent.grants.end());
-  out_.signals.ObeyLights(id);
+  out_.signals.ApplyLights(id);
   FindPassage(id);
   ConflictPassage& passage = out_.passages[id];
   passage.barred = in_.bars[id] < passage.line_m;

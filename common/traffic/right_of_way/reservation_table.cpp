@@ -17,9 +17,9 @@ void ReservationTable::Await(std::size_t zone, std::size_t side) {
   urged_.push_back(Side(zone, side));
 }
 
-void ReservationTable::WantRoom(std::size_t zone, std::size_t side, const Wish& wish) {
-  Wish& wanted = room_for_[Side(zone, side)];
-  if (wish.waited_s > wanted.waited_s) wanted = wish;
+void ReservationTable::WantRoom(std::size_t zone, std::size_t side, const SpaceRequest& request) {
+  SpaceRequest& wanted = room_for_[Side(zone, side)];
+  if (request.waited_s > wanted.waited_s) wanted = request;
   urged_.push_back(Side(zone, side));
 }
 

@@ -53,21 +53,21 @@ class ReservationTable {
   }
   // … or has waited so long for room behind the zone that this side could take; of several the longest waiting, of
   // equals the first that said so.
-  struct Wish {
+  struct SpaceRequest {
     double waited_s = 0.0;
     std::uint32_t id = 0;
   };
-  void WantRoom(std::size_t zone, std::size_t side, const Wish& wish);
-  Wish RoomWanted(std::size_t zone, std::size_t side) const {
-    return urged_.empty() ? Wish{} : room_for_[Side(zone, side)];
+  void WantRoom(std::size_t zone, std::size_t side, const SpaceRequest& request);
+  SpaceRequest RoomWanted(std::size_t zone, std::size_t side) const {
+    return urged_.empty() ? SpaceRequest{} : room_for_[Side(zone, side)];
   }
 
  private:
   Lists<Reservation> holders_;
   Lists<ApproachingVehicle> comers_;
-  std::vector<std::uint8_t> awaited_;  // by side
-  std::vector<Wish> room_for_;         // by side
-  std::vector<std::size_t> urged_;     // sides of which one of both says something: hardly ever any
+  std::vector<std::uint8_t> awaited_;   // by side
+  std::vector<SpaceRequest> room_for_;  // by side
+  std::vector<std::size_t> urged_;      // sides of which one of both says something: hardly ever any
 };
 
 }  // namespace rodeira::traffic

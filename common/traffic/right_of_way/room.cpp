@@ -85,7 +85,7 @@ double Room::ReachOf(std::uint32_t id, int depth) {
   double to = front + in_.ways.SightOf(agent);
   if (passage.any) to = std::min(to, passage.line_m - kShort_m);
   to = std::min(to, std::max(front, in_.bars[id] - kShort_m));
-  const double apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
+  const double apart = in_.traits[id].idm.min_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
   to = ReachBehindThose(id, to, depth);
   return out_.reaches[id] = std::max(0.0, to - front);
@@ -95,7 +95,7 @@ double Room::ReachOf(std::uint32_t id, int depth) {
 // leave or, where ways merge, behind it as far as it comes, whichever is the farther. One that nothing keeps as far as
 // it sees, and that has room behind its zones, leaves them.
 double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
-  const double front = FrontOf(in_.agents[id], in_.traits[id]), apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
+  const double front = FrontOf(in_.agents[id], in_.traits[id]), apart = in_.traits[id].idm.min_gap_m + kLoose_m;
   in_.merging.EachBefore(id, [&](const Reservation& holder, double in, double out, bool merges) {
     const double line = in >= front ? in - kStopDistance_m - kShort_m : front;
     if (line >= to_m) return;
@@ -120,8 +120,7 @@ bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) con
     const Leader& ahead = in_.ahead[at];
     const bool stands = agent.speed_mps < kStands_mps;
     const std::int64_t next = agent.eased_for >= 0 ? agent.eased_for : ahead.id;
-    const double gap = next == ahead.id ? ahead.gap_m : 0.0,
-                 closes = std::max(0.0, gap - in_.traits[at].idm.standing_gap_m);
+    const double gap = next == ahead.id ? ahead.gap_m : 0.0, closes = std::max(0.0, gap - in_.traits[at].idm.min_gap_m);
     if (next < 0 || next == other || (stands ? closes > kClose_m : starts > 0.0)) break;
     if (stands)
       starts += kFollows_s;
@@ -164,7 +163,7 @@ void Room::FindRoom(std::uint32_t id) {
 
 bool Room::RoomToWait(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
-  const double apart = in_.traits[id].idm.standing_gap_m + kShort_m;
+  const double apart = in_.traits[id].idm.min_gap_m + kShort_m;
   double stands = passage.place.in_m - kInsideDistance_m, needs = passage.room_m, leaves = kNever_m;
   EachAhead(id, needs + kRowInside_m, 0, [&](std::int64_t other, double rear_m, double comes_m) {
     stands = std::min(stands, comes_m - apart);
@@ -190,7 +189,7 @@ void Room::TellComing(std::uint32_t id) {
   (void)out_.passages_ahead.KnowAllowedAt(id, passage.end_m, 1);
   passage.arrives_s =
       TravelTime(in - FrontOf(in_.agents[id], in_.traits[id]), in_.agents[id].speed_mps, most,
-                 in_.traits[id].start_mps2, {in_.agents[id].wish_mps2, in_.settings.smooth.planned_mps3});
+                 in_.traits[id].start_mps2, {in_.agents[id].desired_mps2, in_.settings.smooth.planned_mps3});
   FindRoom(id);
 }
 

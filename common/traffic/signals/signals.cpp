@@ -61,11 +61,11 @@ bool Signals::AllGreen(std::uint32_t id, double from_m, double to_m) const {
   return true;
 }
 
-void Signals::ObeyLights(std::uint32_t id) {
+void Signals::ApplyLights(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return;
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m,
-               stops = StopsIn(agent.speed_mps, agent.wish_mps2, in_.settings.smooth.planned_mps3);
+               stops = StopsIn(agent.speed_mps, agent.desired_mps2, in_.settings.smooth.planned_mps3);
   for (std::size_t i = 0; i < agent.grants.size(); ++i) {
     const ZoneGrant& grant = agent.grants[i];
     // One that was to wait past the line, and comes to rest before it, stays there.

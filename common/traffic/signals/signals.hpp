@@ -48,7 +48,7 @@ class Signals {
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   // One with a grant past a light that is green no more, and that can stop before it, gives it back. It stands where it
   // would have waited: no holder of a zone of that way counts on it.
-  void ObeyLights(std::uint32_t id);
+  void ApplyLights(std::uint32_t id);
 
  private:
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;

@@ -22,8 +22,8 @@ constexpr std::size_t kPieceNumbers = 7;
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
   writer.Put("is_struck", is_crashed);
-  writer.Put("struck", struck);
-  writer.Put("struck_z_m", struck_z_m);
+  writer.Put("struck", crashed);
+  writer.Put("struck_z_m", crashed_z_m);
   writer.Put("entry", entry);
   writer.Put("trip", trip);
   writer.Put("flow", flow);
@@ -33,7 +33,7 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("o_m", o_m);
   writer.Put("speed_mps", speed_mps);
   writer.Put("acceleration_mps2", acceleration_mps2);
-  writer.Put("wish_mps2", wish_mps2);
+  writer.Put("wish_mps2", desired_mps2);
   writer.Put("driven_m", driven_m);
   writer.Put("fuel_mg", fuel_mg);
   writer.Put("fuel_mgps", fuel_mgps);
@@ -85,8 +85,8 @@ void Agent::Save(base::StateWriter& writer) const {
 void Agent::Restore(base::StateReader& reader) {
   reader.Get("on_road", on_road);
   reader.Get("is_struck", is_crashed);
-  reader.Get("struck", struck);
-  reader.Get("struck_z_m", struck_z_m);
+  reader.Get("struck", crashed);
+  reader.Get("struck_z_m", crashed_z_m);
   reader.Get("entry", entry);
   reader.Get("trip", trip);
   reader.Get("flow", flow);
@@ -96,7 +96,7 @@ void Agent::Restore(base::StateReader& reader) {
   reader.Get("o_m", o_m);
   reader.Get("speed_mps", speed_mps);
   reader.Get("acceleration_mps2", acceleration_mps2);
-  reader.Get("wish_mps2", wish_mps2);
+  reader.Get("wish_mps2", desired_mps2);
   reader.Get("driven_m", driven_m);
   reader.Get("fuel_mg", fuel_mg);
   reader.Get("fuel_mgps", fuel_mgps);

@@ -89,11 +89,11 @@ struct alignas(64) Agent {
   double o_m = 0.0;            // odometer of its middle on this trip
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
-  double wish_mps2 = 0.0;   // the acceleration from which its driver goes on
-  double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
-  double waited_s = 0.0;    // at rest for others to go first
-  double brake_mps2 = 0.0;  // commanded; 0: not
-  Path path;                // from the piece under its rear bumper to that under its front bumper
+  double desired_mps2 = 0.0;  // the acceleration from which its driver goes on
+  double granted_m = 0.0;     // odometer to which the conflict zones on its way are its own
+  double waited_s = 0.0;      // at rest for others to go first
+  double brake_mps2 = 0.0;    // commanded; 0: not
+  Path path;                  // from the piece under its rear bumper to that under its front bumper
   boost::container::small_vector<ZoneGrant, 1> grants;  // those that its rear has not left yet, as it meets them
   std::uint32_t entry = 0;                              // the track where it waits to enter
   std::uint32_t trip = 0;
@@ -114,8 +114,8 @@ struct alignas(64) Agent {
       -1;  // the one that has come in before it and is still followed nearer than it likes; below 0: none
   LaneChange change;
   Overtaking overtaking;
-  Crashed struck;
-  double struck_z_m = 0.0;  // its height, where no lane is below it
+  Crashed crashed;
+  double crashed_z_m = 0.0;  // its height, where no lane is below it
 
   // That of a zone that begins there; nothing for zones that it came into without any.
   ZoneGrant GrantOf(double in_m) const {

@@ -16,7 +16,7 @@ constexpr double kCell =
     2.0 * kRingReach / kRingPoints;  // length of the ground that a place stands for, share of the radius
 
 // Of the place number i, along the wheel from below the hub.
-double Ahead(int i, double radius_m) { return (2 * i + 1 - kRingPoints) * 0.5 * kCell * radius_m; }
+double SampleOffset(int i, double radius_m) { return (2 * i + 1 - kRingPoints) * 0.5 * kCell * radius_m; }
 
 // Horizontal, along the wheel.
 Vector3d Heading(const Vector3d& axle_W) {
@@ -62,7 +62,7 @@ void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std:
   for (int i = 0; i < kRingPoints; ++i) {
     const ground::GroundPoint& point = points[static_cast<std::size_t>(i)];
     if (!point.inside) continue;
-    const Touch touch = TouchCell(point, Ahead(i, radius_m), heading, radius_m);
+    const Touch touch = TouchCell(point, SampleOffset(i, radius_m), heading, radius_m);
     if (touch.hub_z_m > first.hub_z_m) first = touch;
   }
   wheel.plane_W = {hub_W.x(), hub_W.y(), first.z_m - first.slope * first.ahead_m};
@@ -76,8 +76,8 @@ void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std:
   wheel.surface = first.point->surface;
 }
 
-void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces& places,
-                     const std::array<WheelGround*, kWheels>& wheels) {
+void QueryGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces& places,
+                       const std::array<WheelGround*, kWheels>& wheels) {
   std::array<ground::GroundQuery, kWheels * kRingPoints> queries;
   std::array<ground::GroundPoint, kWheels * kRingPoints> points;
   std::array<Vector3d, kWheels> headings;
@@ -85,7 +85,7 @@ void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces&
     const Vector3d& hub = places.hubs_W[i];
     headings[i] = Heading(places.axles_W[i]);
     for (int k = 0; k < kRingPoints; ++k) {
-      const double ahead = Ahead(k, radius_m);
+      const double ahead = SampleOffset(k, radius_m);
       queries[i * kRingPoints + static_cast<std::size_t>(k)] = {hub.x() + ahead * headings[i].x(),
                                                                 hub.y() + ahead * headings[i].y(), hub.z()};
     }
@@ -103,7 +103,7 @@ void QueryGround(ground::Ground& ground, Enveloping enveloping, double radius_m,
   if (enveloping == Enveloping::kNone)
     QueryGround(ground, places.hubs_W, wheels);
   else
-    AskGroundByRing(ground, radius_m, places, wheels);
+    QueryGroundByRing(ground, radius_m, places, wheels);
 }
 
 }  // namespace rodeira::dynamics

@@ -124,7 +124,7 @@ base::Status FmuModel::SetControls(const Controls& c) {
       {v.brake, c.brake},
       {v.clutch, c.clutch},
       {v.handbrake, c.handbrake},
-      {v.gear_wish, static_cast<double>(c.gear)},
+      {v.gear_lever, static_cast<double>(c.gear)},
       {v.automatic, c.gearbox == GearboxMode::kAutomatic ? 1.0 : 0.0},
       {v.starter, c.starter ? 1.0 : 0.0}};
   for (const auto& [variable, value] : values) {

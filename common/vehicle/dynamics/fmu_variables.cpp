@@ -37,7 +37,7 @@ struct Finder {
   }
 
   // The nearest name is one that no other variable of ours has.
-  void ComplainOfMissing() {
+  void ReportMissing() {
     if (missing.empty()) return;
     const bool output = missing_way == Way::kOutput;
     std::vector<std::string> there;
@@ -132,7 +132,7 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   find(v.brake, "brake", Way::kInput, "1");
   find(v.clutch, "clutch", Way::kInput, "1");
   find(v.handbrake, "handbrake", Way::kInput, "1");
-  find(v.gear_wish, "gear_lever", Way::kInput, "1");
+  find(v.gear_lever, "gear_lever", Way::kInput, "1");
   find(v.automatic, "automatic", Way::kInput, "1");
   find(v.starter, "starter", Way::kInput, "1");
   const std::array<std::string, 3> axes = {"x", "y", "z"}, angles = {"roll", "pitch", "heading"},
@@ -168,7 +168,7 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
     find(w.lateral, wheel + "lateral_N", Way::kOutput, "N");
     find(w.load, wheel + "load_N", Way::kOutput, "N");
   }
-  find.ComplainOfMissing();
+  find.ReportMissing();
   for (const auto& [name, own] : names.own) {
     if (find.known.contains(name)) continue;
     find.AddProblem(fmt::format("'names.{}' is no variable of a vehicle{}", name,

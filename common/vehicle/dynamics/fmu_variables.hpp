@@ -37,7 +37,7 @@ struct FmuVariables {
   Variable start_x, start_y, start_z, start_heading;  // asked for
   Variable start_pitch, start_roll, start_speed, start_lateral_speed, start_yaw_rate;
   // Inputs of each step.
-  Variable steering_wheel, throttle, brake, clutch, handbrake, gear_wish, automatic, starter;
+  Variable steering_wheel, throttle, brake, clutch, handbrake, gear_lever, automatic, starter;
   std::array<Variable, 3> push_force{}, push_moment{};  // of collisions, in W, about B's origin: all six or none count
   // Outputs: motion of B, asked for.
   std::array<Variable, 3> position{}, angle{}, velocity{}, rate{};  // angle, rate: roll, pitch, heading

@@ -24,7 +24,7 @@ constexpr double kAnchor_Npm =
 constexpr double kHeld_N = 1e-6;       // what anchors may still hold of a car at a speed
 constexpr double kMomentArm_m = 0.01;  // a change of a wheel's moment counts as one of its forces by this arm
 
-Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
+Eigen::Isometry3d PoseOnGround(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
   const Eigen::Vector3d ahead(std::cos(initial.heading_rad), std::sin(initial.heading_rad), 0.0);
   const Eigen::Vector3d forward = (ahead - ahead.dot(up) / up.z() * Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -178,7 +178,7 @@ Eigen::Isometry3d MultibodyModel::MoveTo(const InitialCondition& initial, double
 base::Status MultibodyModel::Settle(const InitialCondition& initial, ground::Ground& ground, Cruise& cruise) {
   const ground::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
   if (!start.inside) return Refusal(initial, "that is outside of the world");
-  Place(Standing(initial, start.z_m, start.normal_W) * X_CB_.inverse());
+  Place(PoseOnGround(initial, start.z_m, start.normal_W) * X_CB_.inverse());
   column_load_->SetHands(0.0, 0.0);
   chassis_load_->SetDrive(0.0);
   chassis_load_->SetHeadway(Eigen::Vector3d::Zero());

@@ -14,8 +14,8 @@ void GearSelector::Step(const LeverRequests& requests) {
     if (to_manual && gear_ > 0) gear_ = std::max(requests.engaged, 1);
   }
   const std::int32_t top = mode_ == GearboxMode::kAutomatic ? 1 : forward_gears_;
-  const auto wished = static_cast<std::int64_t>(std::min(gear_, top)) + requests.up - requests.down;
-  gear_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(wished, -1, top));
+  const auto requested = static_cast<std::int64_t>(std::min(gear_, top)) + requests.up - requests.down;
+  gear_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(requested, -1, top));
 }
 
 void GearSelector::Show(dynamics::Controls& controls) const {

@@ -11,7 +11,9 @@ namespace rodeira::input_devices {
 namespace {
 
 // 0 within the dead zone, from there evenly to 1.
-double Behind(double dead_zone, double share) { return std::clamp((share - dead_zone) / (1.0 - dead_zone), 0.0, 1.0); }
+double BeyondDeadZone(double dead_zone, double share) {
+  return std::clamp((share - dead_zone) / (1.0 - dead_zone), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -31,11 +33,11 @@ dynamics::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, 
   }
   const double lock_rad = LockAt(settings_.lock_rad, speed_mps, settings_.half_lock_speed_mps);
   const double share = std::copysign(
-      std::pow(Behind(settings_.stick_dead_zone, std::fabs(pad.stick)), settings_.stick_exponent), -pad.stick);
+      std::pow(BeyondDeadZone(settings_.stick_dead_zone, std::fabs(pad.stick)), settings_.stick_exponent), -pad.stick);
   controls_.steering_wheel_rad = TurnWheel(controls_.steering_wheel_rad, share == 0.0 ? 0.0 : share * lock_rad,
                                            lock_rad / settings_.turn_s, lock_rad / settings_.centre_s, dt_s);
-  controls_.throttle = Behind(settings_.trigger_dead_zone, pad.throttle);
-  controls_.brake = Behind(settings_.trigger_dead_zone, pad.brake);
+  controls_.throttle = BeyondDeadZone(settings_.trigger_dead_zone, pad.throttle);
+  controls_.brake = BeyondDeadZone(settings_.trigger_dead_zone, pad.brake);
   controls_.handbrake = pad.Down(PadButton::kHandbrake) ? 1.0 : 0.0;
   controls_.starter = pad.Down(PadButton::kStarter);
   LeverRequests lever;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kOffscreenFrame_s = 1.0f / 60.0f;  // without a viewer, frames follow one another evenly
 
-void AskForContext() {
+void SetContextHints() {
   SDL_GL_ResetAttributes();
   SDL_GL_SetAttribute(SDL_GL_RED_SIZE, 8);
   SDL_GL_SetAttribute(SDL_GL_GREEN_SIZE, 8);
@@ -63,7 +63,7 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
 }
 
 base::Status Window::Make(const Settings& settings) {
-  AskForContext();
+  SetContextHints();
   Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE;
   if (kind_ == Kind::kWindow) flags |= SDL_WINDOW_SHOWN;
   window_ = SDL_CreateWindow(settings.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, settings.width_px,
@@ -150,7 +150,7 @@ int Window::height_px() const {
 
 bool Window::busy() const { return input_->waiting(); }
 
-void Window::AskToStay() { input_->Stay(); }
+void Window::StayOpen() { input_->Stay(); }
 
 void Window::SetTitle(const std::string& title) { SDL_SetWindowTitle(window_, title.c_str()); }
 

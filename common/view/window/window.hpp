@@ -46,7 +46,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   // Takes the events, up to `wait_ms` for the first one, clears the picture and begins the panels. False where the
-  // window should close: the frame must then not be drawn. AskToStay takes that back.
+  // window should close: the frame must then not be drawn. StayOpen takes that back.
   bool BeginFrame(int wait_ms);
   // Draws the panels over the picture and shows it; what is seen is written into `seen` too.
   void EndFrame(Image* seen = nullptr);
@@ -56,7 +56,7 @@ class Window {
   // Events wait for a further frame: BeginFrame will not wait.
   bool busy() const;
   // The person has been asked, or must be: the window is not to close now.
-  void AskToStay();
+  void StayOpen();
   // UTF-8.
   void SetTitle(const std::string& title);
   // Of OpenGL: "llvmpipe (LLVM 15.0.6, 256 bits)" or the like.

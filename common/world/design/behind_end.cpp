@@ -18,7 +18,7 @@ class Lists {
   Lists(std::string id, double length_m, std::vector<std::string>& warnings)
       : id_(std::move(id)), length_m_(length_m), warnings_(warnings) {}
 
-  void Look(const Map& map, const char* key, double slack_m = kSlack_m) {
+  void Check(const Map& map, const char* key, double slack_m = kSlack_m) {
     const List points = map.OptionalItems(key);
     if (points.size() == 0) return;
     const double s_m = std::strtod(points.At(points.size() - 1).Peek({"s_m"}).value_or("0").c_str(), nullptr);
@@ -37,15 +37,15 @@ class Lists {
 
 void WarnBehindEnd(const Map& road, double length_m, std::vector<std::string>& warnings) {
   Lists lists(road.Peek({"id"}).value_or(""), length_m, warnings);
-  lists.Look(road, "vertical", kGradeSlack_m);
-  for (const char* key : {"superelevation", "speed_limits"}) lists.Look(road, key);
+  lists.Check(road, "vertical", kGradeSlack_m);
+  for (const char* key : {"superelevation", "speed_limits"}) lists.Check(road, key);
   const Map section = road.OptionalChild("section");
-  for (const char* key : {"offsets", "crossfalls"}) lists.Look(section, key);
+  for (const char* key : {"offsets", "crossfalls"}) lists.Check(section, key);
   const List lanes = section.OptionalItems("lanes");
-  for (std::size_t i = 0; i < lanes.size(); ++i) lists.Look(lanes.At(i), "widths");
+  for (std::size_t i = 0; i < lanes.size(); ++i) lists.Check(lanes.At(i), "widths");
   for (const char* side : {"left", "right"})
-    lists.Look(section.OptionalChild("shoulders").OptionalChild(side), "widths");
-  lists.Look(section.OptionalChild("verge"), "widths");
+    lists.Check(section.OptionalChild("shoulders").OptionalChild(side), "widths");
+  lists.Check(section.OptionalChild("verge"), "widths");
 }
 
 }  // namespace rodeira::design

@@ -14,7 +14,7 @@
 #include "common/world/design/design_schema.hpp"
 #include "common/world/design/join_check.hpp"
 #include "common/world/design/junction_builder.hpp"
-#include "common/world/design/standing_reader.hpp"
+#include "common/world/design/props_reader.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -178,22 +178,22 @@ std::string DrivenLanes(const network::RoadSpec& spec) {
   return lanes;
 }
 
-std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const std::vector<RoadDesign>& designs,
+std::optional<StartPlace> FindStart(const StartSpec& start_spec, const Map& map, const std::vector<RoadDesign>& designs,
                                     const Layout& layout) {
   std::vector<std::string> ids;
   std::optional<std::size_t> road;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     ids.push_back(designs[i].spec.id);
-    if (designs[i].spec.id == wish.road || (wish.road.empty() && i == 0)) road = i;
+    if (designs[i].spec.id == start_spec.road || (start_spec.road.empty() && i == 0)) road = i;
   }
   if (!road) {
     map.Problem("road", "world.unknown_road",
-                fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
+                fmt::format("there is no road '{}'{}", start_spec.road, base::DidYouMean(start_spec.road, ids)));
     return std::nullopt;
   }
   const network::RoadSpec& spec = designs[*road].spec;
-  int lane = wish.lane.value_or(0);
-  if (!wish.lane) {  // the first drivable one beside the axis, on the side that vehicles keep to
+  int lane = start_spec.lane.value_or(0);
+  if (!start_spec.lane) {  // the first drivable one beside the axis, on the side that vehicles keep to
     for (const int id : spec.left_hand ? std::array{1, -1} : std::array{-1, 1}) {
       const network::Lane* found = spec.sections[0].Find(id);
       if (lane == 0 && found != nullptr && network::IsDrivable(found->type)) lane = id;
@@ -205,14 +205,14 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
     return std::nullopt;
   }
   if (!network::IsDrivable(found->type)) {
-    map.Problem(wish.lane ? "lane" : "",
+    map.Problem(start_spec.lane ? "lane" : "",
                 fmt::format("lane {} of road '{}' is one of the type '{}': no vehicle drives there{}", lane, spec.id,
                             network::LaneTypeName(found->type), DrivenLanes(spec)));
     return std::nullopt;
   }
   const bool against = found->direction < 0;
-  const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m)
-                                             : std::min(kFromStart_m, 0.5 * spec.length_m));
+  const double s = start_spec.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m)
+                                                   : std::min(kFromStart_m, 0.5 * spec.length_m));
   if (s > spec.length_m) {
     map.Problem("s_m", "config.out_of_range",
                 fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
@@ -235,7 +235,7 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
     const double station = against ? piece.to_s_m - into : piece.from_s_m + into;
     if (!behind || (against ? station > *behind : station < *behind)) behind = station;
   }
-  if (behind && !wish.s_m) return at(*behind);
+  if (behind && !start_spec.s_m) return at(*behind);
   map.Problem(map.Has("s_m") ? "s_m" : "", fmt::format("'start.s_m' {} of road '{}' lies in a junction{}", s, spec.id,
                                                        behind ? fmt::format("; {:.1f} is behind it", *behind) : ""));
   return std::nullopt;
@@ -327,7 +327,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
       designs.push_back(ReadRoad(item, context, designs));
     }
     root.IgnoreKey("junctions");
-    ReadStanding(keys, terrain_is_at, move, design.standing);
+    ReadProps(keys, terrain_is_at, move, design.props);
   }
   const auto sound = [&] {
     design.problems = files.Problems();

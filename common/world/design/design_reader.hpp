@@ -13,7 +13,7 @@
 #include "common/world/design/road_fit.hpp"
 #include "common/world/network/laid.hpp"
 #include "common/world/network/network.hpp"
-#include "common/world/network/standing.hpp"
+#include "common/world/network/props.hpp"
 
 namespace rodeira::design {
 
@@ -35,7 +35,7 @@ struct Design {
   std::shared_ptr<const network::Network> network;  // null: the file has no roads, or problems
   std::vector<network::Laid> laid;                  // by the network's road; empty: nothing is laid on any of them
   std::vector<std::shared_ptr<const JunctionSurface>> junctions;
-  network::Standing standing;  // what stands at no road
+  network::Props props;  // what stands at no road
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;
   std::vector<std::string> road_places;  // "file:line" where the network's roads are said; those that lead through

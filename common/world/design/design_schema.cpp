@@ -29,7 +29,7 @@ std::vector<Key> SharedKeys() {
           ListKey("roads", Summarised("as `world.road`", MappingKey("", RoadKeys(), "Road.")), "Roads."),
           ListKey("junctions", Summarised("as `world.junction`", MappingKey("", JunctionKeys(), "Junction.")),
                   "Junctions."),
-          ListKey("objects", Summarised("as `world.object`", MappingKey("", StandingKeys(), "Object at no road.")),
+          ListKey("objects", Summarised("as `world.object`", MappingKey("", PropKeys(), "Object at no road.")),
                   "Objects at no road.")};
 }
 
@@ -63,7 +63,7 @@ const Schema& JunctionSchema() {
 }
 
 const Schema& ObjectSchema() {
-  static const Schema schema{"world.object", kFormat, "An object of a world file at no road.", StandingKeys()};
+  static const Schema schema{"world.object", kFormat, "An object of a world file at no road.", PropKeys()};
   return schema;
 }
 

@@ -105,7 +105,7 @@ std::vector<Key> MakeObjectKeys() {
   return keys;
 }
 
-std::vector<Key> MakeStandingKeys() {
+std::vector<Key> MakePropKeys() {
   std::vector<Key> keys = OwnKeys();
   for (Key& key : std::vector<Key>{
            ComputedNumberKey("x_m", kPlace_m, "or `along`", "Place to the east."),
@@ -138,8 +138,8 @@ const std::vector<Key>& ObjectKeys() {
   return keys;
 }
 
-const std::vector<Key>& StandingKeys() {
-  static const std::vector<Key> keys = MakeStandingKeys();
+const std::vector<Key>& PropKeys() {
+  static const std::vector<Key> keys = MakePropKeys();
   return keys;
 }
 

@@ -12,6 +12,6 @@ const config::Key& MarkingItem();
 const std::vector<config::Key>& SignKeys();
 const std::vector<config::Key>& ObjectKeys();
 // Of an object at no road.
-const std::vector<config::Key>& StandingKeys();
+const std::vector<config::Key>& PropKeys();
 
 }  // namespace rodeira::design

@@ -107,10 +107,10 @@ class Builder {
   network::Road Piece(std::uint32_t index) const { return {specs_[index], axes_[index]}; }
 
   void BuildJunction(std::size_t index) {
-    const JunctionSpec& wish = junctions_[index];
+    const JunctionSpec& junction_spec = junctions_[index];
     std::vector<Arm>& arms = arms_[index];
     std::vector<network::Road> pieces;
-    Eigen::Vector2d middle = roads_[wish.meetings[0].road].axis().Evaluate(wish.meetings[0].s_m).p_W;
+    Eigen::Vector2d middle = roads_[junction_spec.meetings[0].road].axis().Evaluate(junction_spec.meetings[0].s_m).p_W;
     const auto angle = [&](const Arm& arm) {
       const network::Road piece = Piece(arm.piece);
       const auto [left, right] = EdgesAt(piece, arm.end, false);
@@ -131,30 +131,31 @@ class Builder {
     }
     Outline outline = MakeOutline(outer);
     network::Junction junction;
-    junction.id = wish.id;
-    junction.name = wish.name;
+    junction.id = junction_spec.id;
+    junction.name = junction_spec.name;
     junction.paved_W = MakeOutline(paved).corners_W;
     junction.outline_W = outline.corners_W;
-    const auto surface = std::make_shared<const JunctionSurface>(
-        wish.id, std::move(sections), std::move(outline.corners_W), junction.paved_W, std::move(outline.free_edges));
+    const auto surface =
+        std::make_shared<const JunctionSurface>(junction_spec.id, std::move(sections), std::move(outline.corners_W),
+                                                junction.paved_W, std::move(outline.free_edges));
     layout_.surfaces.push_back(surface);
-    AddThrough(wish, arms, pieces, *surface, junction);
-    AddTurns(wish, arms, pieces, *surface, junction);
-    for (const Arm& arm : arms) MarkArm(specs_[arm.piece], arm.end, wish.control, arm.meeting == 0);
-    if (wish.lights) AddLights(wish, arms, junction);
+    AddThrough(junction_spec, arms, pieces, *surface, junction);
+    AddTurns(junction_spec, arms, pieces, *surface, junction);
+    for (const Arm& arm : arms) MarkArm(specs_[arm.piece], arm.end, junction_spec.control, arm.meeting == 0);
+    if (junction_spec.lights) AddLights(junction_spec, arms, junction);
     layout_.network.junctions.push_back(std::move(junction));
   }
 
   // A light before each arm that traffic comes from, a controller a road.
-  void AddLights(const JunctionSpec& wish, const std::vector<Arm>& arms, network::Junction& junction) {
-    for (const std::string& name : wish.lights->Names()) {
+  void AddLights(const JunctionSpec& junction_spec, const std::vector<Arm>& arms, network::Junction& junction) {
+    for (const std::string& name : junction_spec.lights->Names()) {
       network::Controller controller;
-      controller.id = fmt::format("{}-{}", wish.id, name);
-      controller.name = fmt::format("{}: {}", wish.name, name);
-      controller.times = lights::TimesOf(*wish.lights, name);
-      controller.place = lights::PlaceOf(*wish.lights, name);
+      controller.id = fmt::format("{}-{}", junction_spec.id, name);
+      controller.name = fmt::format("{}: {}", junction_spec.name, name);
+      controller.times = lights::TimesOf(*junction_spec.lights, name);
+      controller.place = lights::PlaceOf(*junction_spec.lights, name);
       for (const Arm& arm : arms) {
-        if (designs_[wish.meetings[arm.meeting].road].spec.id != name) continue;
+        if (designs_[junction_spec.meetings[arm.meeting].road].spec.id != name) continue;
         if (const auto id = PutLight(specs_[arm.piece], arm.end)) controller.controls.push_back({*id, "0"});
       }
       junction.controllers.push_back(controller.id);
@@ -163,10 +164,11 @@ class Builder {
   }
 
   // Straight on along roads that pass.
-  void AddThrough(const JunctionSpec& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
-                  const JunctionSurface& surface, network::Junction& junction) {
-    for (std::size_t meeting = 0; meeting < wish.meetings.size(); ++meeting) {
-      const Meeting& passing = wish.meetings[meeting];
+  void AddThrough(const JunctionSpec& junction_spec, const std::vector<Arm>& arms,
+                  const std::vector<network::Road>& pieces, const JunctionSurface& surface,
+                  network::Junction& junction) {
+    for (std::size_t meeting = 0; meeting < junction_spec.meetings.size(); ++meeting) {
+      const Meeting& passing = junction_spec.meetings[meeting];
       if (!passing.before || !passing.after) continue;
       std::size_t from = arms.size(), to = arms.size();
       for (std::size_t i = 0; i < arms.size(); ++i) {
@@ -174,13 +176,14 @@ class Builder {
       }
       if (from == arms.size() || to == arms.size()) continue;
       const double begin = layout_.pieces[arms[from].piece].to_s_m, end = layout_.pieces[arms[to].piece].from_s_m;
-      network::Road way = WayAlong(roads_[passing.road], begin, end,
-                                   fmt::format("{}/{}", wish.id, designs_[passing.road].spec.id), wish.id, surface);
+      network::Road way =
+          WayAlong(roads_[passing.road], begin, end,
+                   fmt::format("{}/{}", junction_spec.id, designs_[passing.road].spec.id), junction_spec.id, surface);
       network::RoadSpec spec = way.spec();
       spec.predecessor = network::RoadLink{false, pieces[from].id(), End::kEnd};
       spec.successor = network::RoadLink{false, pieces[to].id(), End::kStart};
       std::erase_if(spec.lines, [&](const network::PaintedLine& line) {
-        return !KeepsLine(wish, arms, meeting, line, spec.lane_offset.Value(0.0));
+        return !KeepsLine(junction_spec, arms, meeting, line, spec.lane_offset.Value(0.0));
       });
       network::JunctionConnection with{
           fmt::format("{}", junction.connections.size()), pieces[from].id(), spec.id, End::kStart, {}};
@@ -203,12 +206,13 @@ class Builder {
   }
 
   // Of a road with priority the middle line goes on, and the lines on a side without other roads; of others none.
-  bool KeepsLine(const JunctionSpec& wish, const std::vector<Arm>& arms, std::size_t meeting,
+  bool KeepsLine(const JunctionSpec& junction_spec, const std::vector<Arm>& arms, std::size_t meeting,
                  const network::PaintedLine& line, double centre) const {
     if (meeting != 0) return false;
     const double t = line.t.Value(0.5 * (line.from_s_m + line.to_s_m)) - centre;
     if (std::fabs(t) < 0.5) return line.gap_m > 0.0;
-    const geometry::PlanPoint axis = roads_[wish.meetings[0].road].axis().Evaluate(wish.meetings[0].s_m);
+    const geometry::PlanPoint axis =
+        roads_[junction_spec.meetings[0].road].axis().Evaluate(junction_spec.meetings[0].s_m);
     for (const Arm& arm : arms) {
       if (arm.meeting == 0) continue;
       const network::Road piece = Piece(arm.piece);
@@ -220,8 +224,8 @@ class Builder {
   }
 
   // From each arm to each other one that no road leads to: the leftmost lanes turn left, the rightmost right.
-  void AddTurns(const JunctionSpec& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
-                const JunctionSurface& surface, network::Junction& junction) {
+  void AddTurns(const JunctionSpec& junction_spec, const std::vector<Arm>& arms,
+                const std::vector<network::Road>& pieces, const JunctionSurface& surface, network::Junction& junction) {
     for (std::size_t from = 0; from < arms.size(); ++from) {
       for (std::size_t to = 0; to < arms.size(); ++to) {
         if (from == to || arms[from].meeting == arms[to].meeting) continue;
@@ -232,8 +236,8 @@ class Builder {
         const bool left = inward.x() * outward.y() - inward.y() * outward.x() > 0.0;
         const ArmLane& lane = left ? in.front() : in.back();
         const ArmLane& target = left ? out.front() : out.back();
-        const std::string id = fmt::format("{}/{}-{}", wish.id, pieces[from].id(), pieces[to].id());
-        auto way = WayBetween(lane, inward, target, outward, id, wish.id, surface, pieces[from]);
+        const std::string id = fmt::format("{}/{}-{}", junction_spec.id, pieces[from].id(), pieces[to].id());
+        auto way = WayBetween(lane, inward, target, outward, id, junction_spec.id, surface, pieces[from]);
         if (!way) continue;
         network::RoadSpec spec = way->spec();
         spec.predecessor = network::RoadLink{false, pieces[from].id(), arms[from].end};

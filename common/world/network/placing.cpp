@@ -209,8 +209,8 @@ Furniture PlaceFurniture(const Network& network) {
   return furniture;
 }
 
-Placed PlaceStanding(const Standing& standing, const Standing::Thing& thing, const Eigen::Vector3d& foot_W) {
-  const Object& object = standing.objects[thing.object];
+Placed PlaceProp(const Props& props, const Props::Placement& thing, const Eigen::Vector3d& foot_W) {
+  const Object& object = props.objects[thing.object];
   Placed placed;
   placed.object = &object;
   placed.z_offset_m = object.z_offset_m;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/world/network/network.hpp"
-#include "common/world/network/standing.hpp"
+#include "common/world/network/props.hpp"
 
 // Where what stands at the roads stands.
 namespace rodeira::network {
@@ -66,7 +66,7 @@ struct Furniture {
 Furniture PlaceFurniture(const Network& network);
 
 // What stands at no road, on the ground that is given; of a road there are only zeros.
-Placed PlaceStanding(const Standing& standing, const Standing::Thing& thing, const Eigen::Vector3d& foot_W);
+Placed PlaceProp(const Props& props, const Props::Placement& thing, const Eigen::Vector3d& foot_W);
 
 // Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and
 // lanes. along: the lane's traffic goes with growing s.

@@ -69,8 +69,8 @@ class Stations {
                                        std::pair("lateralProfile", "superelevation"), std::pair("lanes", "laneOffset")})
       First(road.Child(parent).Child(kind), "s", fmt::format("road.{}.first", kind));
     for (const char* kind : {"object", "objectReference", "tunnel", "bridge"})
-      Things(road.Child("objects"), kind, *length);
-    for (const char* kind : {"signal", "signalReference"}) Things(road.Child("signals"), kind, *length);
+      CheckObjects(road.Child("objects"), kind, *length);
+    for (const char* kind : {"signal", "signalReference"}) CheckObjects(road.Child("signals"), kind, *length);
     Ids(road.Child("objects"), "object", objects_);
     Ids(road.Child("signals"), "signal", signals_);
     Sections(road.Child("lanes").Children("laneSection"), *length);
@@ -114,7 +114,7 @@ class Stations {
                           record.name(), attribute, *at));
   }
 
-  void Things(const Node& parent, const std::string& element, double length_m) {
+  void CheckObjects(const Node& parent, const std::string& element, double length_m) {
     for (const Node& node : parent.Children(element.c_str())) {
       Within within(source_);
       const auto at = FiniteNumber(node, "s");

@@ -64,8 +64,8 @@ std::set<std::string, std::less<>> PathsOnFoot(std::span<const RoadReading> road
                                                std::span<const JunctionReading> junctions);
 // Junctions' objects become those of the road beside which they lie, and paths across become crossings; roads that are
 // such paths, and have nothing standing at them, are taken out.
-void LayJunctionThings(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot,
-                       network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings);
+void LayJunctionObjects(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot,
+                        network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings);
 // Roads and junctions: that what is linked exists, is meant by both sides, meets, and is not ambiguous.
 void CheckRoadLinks(const network::Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
                     Findings& findings);

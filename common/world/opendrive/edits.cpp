@@ -7,8 +7,8 @@
 namespace rodeira::opendrive {
 namespace {
 
-// Behind `what`, from `at` on; the text's end where it is not found.
-std::size_t Behind(std::string_view text, std::string_view what, std::size_t at) {
+// IndexAfter `what`, from `at` on; the text's end where it is not found.
+std::size_t IndexAfter(std::string_view text, std::string_view what, std::size_t at) {
   const std::size_t found = text.find(what, at);
   return found == std::string_view::npos ? text.size() : found + what.size();
 }
@@ -32,11 +32,11 @@ std::size_t ElementEnd(std::string_view text, std::size_t begin) {
   while (at < text.size()) {
     const std::string_view rest = text.substr(at);
     if (rest.starts_with("<!--")) {
-      at = Behind(text, "-->", at);
+      at = IndexAfter(text, "-->", at);
     } else if (rest.starts_with("<![CDATA[")) {
-      at = Behind(text, "]]>", at);
+      at = IndexAfter(text, "]]>", at);
     } else if (rest.starts_with("<?")) {
-      at = Behind(text, "?>", at);
+      at = IndexAfter(text, "?>", at);
     } else {
       const std::size_t end = TagEnd(text, at);
       const bool closes = rest.starts_with("</"), empty = end >= 2 && text[end - 2] == '/';

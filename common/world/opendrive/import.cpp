@@ -146,7 +146,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   }
   for (const JunctionReading& junction : junctions) spec.junctions.push_back(junction.junction);
   LayJunctionGrounds(junctions, tolerance, spec, findings);
-  LayJunctionThings(junctions, on_foot, spec, lines, findings);
+  LayJunctionObjects(junctions, on_foot, spec, lines, findings);
   TakeTurns(spec, findings);
   import.network = std::make_shared<const network::Network>(std::move(spec));
   if (tolerance.repair) import.before = ReachOf(*import.network);

@@ -96,7 +96,7 @@ void ReadGrid(const Node& junction, JunctionReading& reading) {
 }
 
 // Objects beside the junction's own line (an example of the standard has no <objects> about them), and paths on foot.
-void ReadThings(const Node& junction, JunctionReading& reading) {
+void ReadObjects(const Node& junction, JunctionReading& reading) {
   for (const Node& parent : {junction.Child("objects"), junction}) {
     for (const Node& node : parent.Children("object")) reading.objects.push_back({ReadObject(node), node.line()});
   }
@@ -137,7 +137,7 @@ JunctionReading ReadJunction(const Node& junction) {
   RoadLines lines;
   if (junction.Child("planView")) reading.elements = ReadPlanView(junction, lines);
   ReadGrid(junction, reading);
-  ReadThings(junction, reading);
+  ReadObjects(junction, reading);
   return reading;
 }
 

@@ -12,6 +12,6 @@ namespace rodeira::road {
 // has. The car starts where the file wishes it, in a pose or on a lane of a road; where it says nothing, where it
 // starts without a world file.
 WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said,
-                              const design::StartSpec& wish);
+                              const design::StartSpec& start_spec);
 
 }  // namespace rodeira::road

@@ -23,7 +23,9 @@ constexpr double kStraight_1pm = 1e-7;
 constexpr double kHeldSide_m = 8.0;
 constexpr double kSurelyVerge = 0.8;
 
-float Below(double value) { return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()); }
+float NextFloatBelow(double value) {
+  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
 
 // How far from an edge within a bend what moves with p may reach.
 double ReachOf(double curvature_1pm, double edge_m) {
@@ -315,8 +317,8 @@ NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, c
     const double least_m = distance_m - radius_m - kDistanceRounding_m;
     if (distance_m > told_m + kDistanceRounding_m && least_m > bounds.TightensWithin(heights.low_m, heights.high_m))
       continue;
-    const float low_m = Below(heights.low_m), high_m = -Below(-heights.high_m);
-    held.pieces.push_back({index, Below(distance_m - kDistanceRounding_m), low_m, high_m, low_m, high_m});
+    const float low_m = NextFloatBelow(heights.low_m), high_m = -NextFloatBelow(-heights.high_m);
+    held.pieces.push_back({index, NextFloatBelow(distance_m - kDistanceRounding_m), low_m, high_m, low_m, high_m});
   }
   for (std::size_t i = held.pieces.size(); i-- > 1;) {
     Held::Near &near = held.pieces[i - 1], &behind = held.pieces[i];
@@ -340,7 +342,7 @@ std::optional<std::uint32_t> NetworkLand::NearestPiece(const Held& held, const V
   return nearest;
 }
 
-void NetworkLand::Ask(std::uint32_t index, const Vector2d& p_W, LandBounds& bounds) const {
+void NetworkLand::Query(std::uint32_t index, const Vector2d& p_W, LandBounds& bounds) const {
   const Piece& piece = pieces_[index];
   bounds.Rank(index + 1);
   piece.ground != nullptr ? FromBoundary(piece, p_W, bounds) : FromRoad(piece, p_W, bounds);
@@ -356,7 +358,7 @@ std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
   if (!nearest) return std::nullopt;
   thread_local LandBounds bounds;
   bounds.Clear(false);
-  Ask(*nearest, p_W, bounds);
+  Query(*nearest, p_W, bounds);
   bounds.Leads();  // of equally tight bounds those of the nearest piece count
   for (const Held::Near& near : held->pieces) {
     const double least_m = static_cast<double>(near.distance_m) - off_m;
@@ -376,7 +378,7 @@ std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
     const double more_m = Steepening(distance_m, kHolds_m).first;
     if ((!is_verge && distance_m < kVerge_m) ||
         distance_m + more_m < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m))
-      Ask(near.piece, p_W, bounds);
+      Query(near.piece, p_W, bounds);
   }
   if (!(bounds.nearest_m() < kVerge_m)) return std::nullopt;
   return bounds.low_m() > bounds.high_m() ? Steep(bounds, p_W) : bounds.Meet();
@@ -390,11 +392,11 @@ std::optional<PlaneHeight> NetworkLand::AtBySearch(const Vector2d& p_W) const {
   LandBounds bounds;
   const auto ask_all = [&](std::uint32_t but) {
     for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
-      if (piece != but && pieces_[piece].DistanceFrom(p_W) < kHolds_m) Ask(piece, p_W, bounds);
+      if (piece != but && pieces_[piece].DistanceFrom(p_W) < kHolds_m) Query(piece, p_W, bounds);
     }
   };
   bounds.Clear(true);
-  Ask(nearest, p_W, bounds);
+  Query(nearest, p_W, bounds);
   bounds.Leads();
   ask_all(nearest);
   if (!(bounds.nearest_m() < kVerge_m)) return std::nullopt;
@@ -419,7 +421,7 @@ PlaneHeight NetworkLand::Steep(const LandBounds& tightest, const Vector2d& p_W) 
       near_.At(p_W), [&](const Around& around) { return around.MayBeWithin(p_W, within(around.heights)); },
       [&](std::uint32_t piece) {
         const double distance_m = pieces_[piece].DistanceFrom(p_W);
-        if (distance_m < kHolds_m && distance_m <= within(pieces_[piece].heights)) Ask(piece, p_W, bounds);
+        if (distance_m < kHolds_m && distance_m <= within(pieces_[piece].heights)) Query(piece, p_W, bounds);
       });
   return bounds.Meet();
 }

@@ -105,7 +105,7 @@ class NetworkLand {
   };
   Held MakeHeld(std::span<const std::uint32_t> blocks, const Eigen::Vector2d& middle_W) const;
   std::optional<std::uint32_t> NearestPiece(const Held& held, const Eigen::Vector2d& p_W, double off_m) const;
-  void Ask(std::uint32_t piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
+  void Query(std::uint32_t piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
   PlaneHeight Steep(const LandBounds& tightest, const Eigen::Vector2d& p_W) const;
   void AddPieces(std::uint32_t road);
   void AddPosts(const network::Road& road, const geometry::AxisPanel& panel, Piece& piece);

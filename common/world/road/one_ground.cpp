@@ -153,7 +153,7 @@ Weight WeightOf(const Network& network, const Surfacing& surfacing) {
 
 // Whether a road begins or ends so near that it may be what another one, closed behind its end, goes on into: the gap
 // between them and what is closed of it.
-bool MayTakeOver(const Network& network, const Surfacing& surfacing) {
+bool CanReplace(const Network& network, const Surfacing& surfacing) {
   const network::Road& road = network.roads()[surfacing.place.lane.road];
   const double s = surfacing.place.s_m;
   constexpr double kNear_m = 2.0 * Network::kClosed_m;
@@ -166,7 +166,7 @@ bool IsBetter(const Surfacing& a, const Surfacing& b) {
 
 void Settle(const Network& network, Layer& layer) {
   auto& roads = layer.roads;
-  const auto takes_over = [&](const Surfacing* road) { return !road->claim.past_end && MayTakeOver(network, *road); };
+  const auto takes_over = [&](const Surfacing* road) { return !road->claim.past_end && CanReplace(network, *road); };
   if (roads.size() > 1 && std::any_of(roads.begin(), roads.end(), takes_over))
     std::erase_if(roads, [](const Surfacing* road) { return road->claim.past_end; });
   layer.named = *std::min_element(roads.begin(), roads.end(),

@@ -72,7 +72,7 @@ World::World(WorldSpec spec)
       terrain_{spec.grid, spec.plane, spec.terrain_surface,
                spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)])},
       network_(spec.network),
-      standing_(spec.standing),
+      props_(spec.props),
       detail_(spec.detail),
       ground_picture_(spec.ground_picture),
       friction_(spec.friction),

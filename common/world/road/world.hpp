@@ -68,7 +68,7 @@ class World : public std::enable_shared_from_this<World> {
   // What lies on the terrain to be seen, and changes no answer; null: nothing.
   const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
   // What stands on the ground at no road, on SUELO's highest surface there; null: nothing.
-  const network::Standing* standing() const { return standing_.get(); }
+  const network::Props* props() const { return props_.get(); }
   // Of what lies on a road between two stations, measured or laid by an author, as SurfaceDetail::DigestOn says; 0:
   // nothing.
   base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
@@ -102,7 +102,7 @@ class World : public std::enable_shared_from_this<World> {
   std::string name_;
   BareTerrain terrain_;
   std::shared_ptr<const network::Network> network_;
-  std::shared_ptr<const network::Standing> standing_;
+  std::shared_ptr<const network::Props> props_;
   std::shared_ptr<const SurfaceDetail> detail_;
   std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain or on a plane
   std::optional<terrain::LaidPicture> ground_picture_;

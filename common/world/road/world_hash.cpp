@@ -25,15 +25,15 @@ class CanonicalWorldWriter {
 };
 
 // What is run into is part of a world.
-void PutStanding(CanonicalWorldWriter& canonical, const network::Standing& standing) {
-  canonical.PutAll(7, standing.objects.size(), standing.things.size(), standing.runs.size());
-  for (const network::Object& object : standing.objects) {
+void PutProps(CanonicalWorldWriter& canonical, const network::Props& props) {
+  canonical.PutAll(7, props.objects.size(), props.placements.size(), props.runs.size());
+  for (const network::Object& object : props.objects) {
     canonical.out().PutString(object.subtype);
     canonical.PutAll(object.length_m, object.width_m, object.height_m, object.radius_m, object.z_offset_m);
   }
-  for (const auto& thing : standing.things)
+  for (const auto& thing : props.placements)
     canonical.PutAll(thing.object, thing.at_W.x(), thing.at_W.y(), thing.heading_rad);
-  for (const auto& run : standing.runs) {
+  for (const auto& run : props.runs) {
     canonical.PutAll(run.object, run.points_W.size());
     for (const Eigen::Vector2d& p : run.points_W) canonical.PutAll(p.x(), p.y());
   }
@@ -59,7 +59,7 @@ base::Digest ContentHash(const WorldSpec& spec) {
   }
   if (spec.detail != nullptr && spec.detail->digest() != 0)
     canonical.PutAll(5, static_cast<std::size_t>(spec.detail->digest()));
-  if (spec.standing != nullptr) PutStanding(canonical, *spec.standing);
+  if (spec.props != nullptr) PutProps(canonical, *spec.props);
   canonical.Put(spec.terrain_surface);
   canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));
   for (const double friction : spec.friction) canonical.Put(friction);

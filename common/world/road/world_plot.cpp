@@ -53,19 +53,19 @@ Extents PlotExtents(const World& world) {
     extents.east_m = std::max(extents.east_m, high.x() + 50.0);
     extents.north_m = std::max(extents.north_m, high.y() + 50.0);
   }
-  if (world.standing() != nullptr) {
+  if (world.props() != nullptr) {
     const auto hold = [&](const Eigen::Vector2d& p) {
       extents.west_m = std::min(extents.west_m, p.x() - 50.0), extents.east_m = std::max(extents.east_m, p.x() + 50.0);
       extents.south_m = std::min(extents.south_m, p.y() - 50.0),
       extents.north_m = std::max(extents.north_m, p.y() + 50.0);
     };
-    for (const auto& thing : world.standing()->things) hold(thing.at_W);
-    for (const auto& run : world.standing()->runs) std::for_each(run.points_W.begin(), run.points_W.end(), hold);
+    for (const auto& thing : world.props()->placements) hold(thing.at_W);
+    for (const auto& run : world.props()->runs) std::for_each(run.points_W.begin(), run.points_W.end(), hold);
   }
   return extents;
 }
 
-View Look(const World& world) {
+View FitView(const World& world) {
   View view{PlotExtents(world),
             0.0,
             0,
@@ -283,10 +283,10 @@ std::string Roads(const World& world, const View& view) {
 
 // What stands at no road: trees and bushes as wide as they are, other things as they lie, walls and rails as lines.
 std::string StaticObjectsSvg(const World& world, const View& view) {
-  if (world.standing() == nullptr) return "";
+  if (world.props() == nullptr) return "";
   std::string svg;
-  for (const network::Standing::Thing& thing : world.standing()->things) {
-    const network::Object& object = world.standing()->objects[thing.object];
+  for (const network::Props::Placement& thing : world.props()->placements) {
+    const network::Object& object = world.props()->objects[thing.object];
     const double x = view.X(thing.at_W.x()), y = view.Y(thing.at_W.y());
     if (object.radius_m > 0.0) {
       svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"#4c7a3a\"/>\n", x, y,
@@ -300,12 +300,12 @@ std::string StaticObjectsSvg(const World& world, const View& view) {
         "transform=\"translate({:.2f} {:.2f}) rotate({:.1f})\"/>\n",
         -0.5 * length, -0.5 * width, length, width, x, y, -thing.heading_rad * 180.0 / geometry::kPi);
   }
-  for (const network::Standing::Run& run : world.standing()->runs) {
+  for (const network::Props::Run& run : world.props()->runs) {
     std::string path;
     for (const Eigen::Vector2d& p : run.points_W)
       path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.X(p.x()), view.Y(p.y()));
     svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#7a6a5a\" stroke-width=\"{:.1f}\"/>\n", path,
-                       std::max(1.0, world.standing()->objects[run.object].width_m * view.scale));
+                       std::max(1.0, world.props()->objects[run.object].width_m * view.scale));
   }
   return svg;
 }
@@ -314,7 +314,7 @@ std::string StaticObjectsSvg(const World& world, const View& view) {
 
 std::string PlotWorld(const World& world) {
   if (world.open_drive()) return PlotNetwork(*world.network());
-  const View view = Look(world);
+  const View view = FitView(world);
   const double width = (view.extents.east_m - view.extents.west_m) * view.scale;
   const double height = (view.extents.north_m - view.extents.south_m) * view.scale;
   const double step = ContourStep(view.high - view.low);

@@ -134,17 +134,17 @@ void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& st
 }
 
 // The same of a file of version 2: what stands on a road is found with the roads.
-design::StartSpec ReadStartWish(const config::DeclaredMap& declared, StartPose& start) {
+design::StartSpec ReadStartSpec(const config::DeclaredMap& declared, StartPose& start) {
   const Map& map = declared.map();
-  design::StartSpec wish;
+  design::StartSpec start_spec;
   if (map.Has("x_m") || map.Has("y_m")) {
     ReadStart(map, {}, start);
-    return wish;
+    return start_spec;
   }
-  wish.road = declared.Text("road", "");
-  if (const auto lane = declared.OptionalInteger("lane")) wish.lane = static_cast<int>(*lane);
-  if (map.Has("s_m")) wish.s_m = declared.RequiredNumber("s_m");
-  return wish;
+  start_spec.road = declared.Text("road", "");
+  if (const auto lane = declared.OptionalInteger("lane")) start_spec.lane = static_cast<int>(*lane);
+  if (map.Has("s_m")) start_spec.s_m = declared.RequiredNumber("s_m");
+  return start_spec;
 }
 
 // All keys of the file. What needs other files or the finished roads comes afterwards.
@@ -202,11 +202,11 @@ Keys ReadKeys(const Map& root) {
       terrain.Problem("file", "config.conflicting_keys", "'terrain' needs either 'file' or 'generate'");
   }
   if (keys.second && root.Has("weather"))
-    (void)weather::ReadStanding(declared.Child("weather").map());  // a scenario's node asks for it (WeatherOf)
+    (void)weather::ReadConstant(declared.Child("weather").map());  // a scenario's node asks for it (WeatherOf)
   if (keys.network_file && !keys.second)
     root.Problem("network", "config.missing_key", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
-    if (root.Has("start")) keys.start = ReadStartWish(declared.Child("start"), keys.spec.start);
+    if (root.Has("start")) keys.start = ReadStartSpec(declared.Child("start"), keys.spec.start);
     return keys;
   }
   const List roads = root.OptionalItems("roads");
@@ -320,8 +320,8 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (!reading.problems.empty()) return reading;
   keys.spec.network = design.network;
   keys.spec.junctions = std::move(design.junctions);
-  if (!design.standing.empty()) {
-    keys.spec.standing = std::make_shared<const network::Standing>(std::move(design.standing));
+  if (!design.props.empty()) {
+    keys.spec.props = std::make_shared<const network::Props>(std::move(design.props));
     // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
     if (keys.spec.network == nullptr)
       keys.spec.network = design.network =

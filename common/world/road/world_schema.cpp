@@ -67,7 +67,7 @@ config::Schema MakeWorldSchema() {
                  "Roads of an OpenDRIVE file."),
       MappingKey("start", StartKeys(), "Where vehicles start."),
       config::Summarised("as in scenario files",
-                         MappingKey("weather", weather::StandingWeatherKeys(), "Weather of runs on this world."))};
+                         MappingKey("weather", weather::ConstantWeatherKeys(), "Weather of runs on this world."))};
   keys.insert(keys.end(), design::DesignKeys().begin(), design::DesignKeys().end());
   return {"world", "world/2", "A world: ground, roads, objects, weather.",
           config::FileKeys("world/2", std::move(keys))};

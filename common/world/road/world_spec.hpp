@@ -10,7 +10,7 @@
 #include "common/core/ground/ground.hpp"
 #include "common/world/design/junction_surface.hpp"
 #include "common/world/network/network.hpp"
-#include "common/world/network/standing.hpp"
+#include "common/world/network/props.hpp"
 #include "common/world/road/surface_point.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
 #include "common/world/terrain/picture_file.hpp"
@@ -45,7 +45,7 @@ struct WorldSpec {
   std::shared_ptr<const network::Network> network;  // null: no roads
   base::Digest network_hash = 0;  // of the bytes of an OpenDRIVE file, or of a traffic map and what stands beside it
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
-  std::shared_ptr<const network::Standing> standing;                      // what stands at no road; null: nothing
+  std::shared_ptr<const network::Props> props;                            // what stands at no road; null: nothing
   std::shared_ptr<const SurfaceDetail> detail;  // what stands on the network's roads; null: nothing
   ground::Surface terrain_surface = ground::Surface::kGrass;
   std::optional<terrain::LaidPicture> ground_picture;  // only to be seen

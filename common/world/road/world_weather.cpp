@@ -14,7 +14,7 @@ base::Result<std::optional<weather::Change>> WeatherOf(const std::filesystem::pa
   const config::Map root = file.value().root();
   if (!root.Has("weather")) return std::optional<weather::Change>();
   return std::optional(
-      weather::ReadStanding(root.Child("weather")));  // the loader of the world tells what is wrong in it
+      weather::ReadConstant(root.Child("weather")));  // the loader of the world tells what is wrong in it
 }
 
 }  // namespace rodeira::road

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMaxHeight_m = 1e4;
 constexpr double kMaxDistance_m = 1e5;
 
-bool Below(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
+bool HasLowerIndex(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
 
 // A key that is an element's number; nothing, after a problem, where it is none.
 std::optional<std::int32_t> NumberOf(const config::Map& map, const std::string& key, std::string_view what) {
@@ -38,7 +38,7 @@ void ReadCurves(const config::Map& all, Heights& heights) {
                   fmt::format("curve {} has {} heights; 4 were expected, one a control point", key, z.size()));
     }
     one.line = LineOf(all.Place(key));
-    const auto at = std::lower_bound(heights.curves.begin(), heights.curves.end(), one.curve, Below);
+    const auto at = std::lower_bound(heights.curves.begin(), heights.curves.end(), one.curve, HasLowerIndex);
     if (at != heights.curves.end() && at->curve == one.curve)
       all.Problem(key, "config.duplicate_name", fmt::format("curve {} has heights already", one.curve));
     heights.curves.insert(at, one);
@@ -101,7 +101,7 @@ std::size_t LineOf(const std::string& place) {
 }
 
 std::array<double, 4> Heights::Of(std::int32_t curve) const {
-  const auto at = std::lower_bound(curves.begin(), curves.end(), curve, Below);
+  const auto at = std::lower_bound(curves.begin(), curves.end(), curve, HasLowerIndex);
   return at != curves.end() && at->curve == curve ? at->z_m : std::array<double, 4>{};
 }
 

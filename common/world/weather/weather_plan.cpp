@@ -71,7 +71,7 @@ void WeatherPlan::Add(const Change& change) {
   changes_.insert(later, change);
 }
 
-const std::vector<config::Key>& StandingWeatherKeys() {
+const std::vector<config::Key>& ConstantWeatherKeys() {
   const auto key = [](std::string name, config::Range range, double first, std::string meaning) {
     return config::WithDefaultNote(fmt::format("unchanged, {} at first", first),
                                    config::OptionalNumberKey(std::move(name), range, std::move(meaning)));
@@ -92,14 +92,14 @@ const std::vector<config::Key>& WeatherChangeKeys() {
     std::vector<config::Key> all{
         config::NumberKey("at_s", {0.0, kLongest_s}, 0.0, "Begin of the change; times do not descend."),
         config::NumberKey("over_s", {0.0, kLongest_s}, 0.0, "How long it takes, evenly.")};
-    all.insert(all.end(), StandingWeatherKeys().begin(), StandingWeatherKeys().end());
+    all.insert(all.end(), ConstantWeatherKeys().begin(), ConstantWeatherKeys().end());
     return all;
   }();
   return keys;
 }
 
-Change ReadStanding(const config::Map& map) {
-  const config::DeclaredMap declared(map, StandingWeatherKeys());
+Change ReadConstant(const config::Map& map) {
+  const config::DeclaredMap declared(map, ConstantWeatherKeys());
   Change change;
   change.wetness = declared.OptionalNumber("wetness");
   change.rain_mmph = declared.OptionalNumber("rain_mmph");
@@ -113,7 +113,7 @@ WeatherPlan ReadWeather(const config::List& items) {
   std::vector<Change> changes;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const config::Map map = items.At(i);
-    Change change = ReadStanding(map);
+    Change change = ReadConstant(map);
     const config::DeclaredMap declared(map, WeatherChangeKeys());
     change.at_s = declared.Number("at_s");
     change.over_s = declared.Number("over_s");

@@ -38,7 +38,7 @@ class WeatherPlan {
 
 // What a mapping says of a weather without times (docs/reference/scenario-files.md), at once at the beginning. Problems
 // stay in the file's collection.
-Change ReadStanding(const config::Map& map);
+Change ReadConstant(const config::Map& map);
 
 // A list of changes (docs/reference/scenario-files.md). Problems stay in the file's collection.
 WeatherPlan ReadWeather(const config::List& changes);

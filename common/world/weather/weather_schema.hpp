@@ -9,7 +9,7 @@
 namespace rodeira::weather {
 
 // The keys of a weather without times; of a change.
-const std::vector<config::Key>& StandingWeatherKeys();
+const std::vector<config::Key>& ConstantWeatherKeys();
 const std::vector<config::Key>& WeatherChangeKeys();
 
 }  // namespace rodeira::weather

@@ -117,7 +117,7 @@ void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, co
   fmt::print(
       "hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in "
       "all\n",
-      r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
+      r.max_deceleration_mps2, r.foot_mps2, r.max_deceleration_any_mps2);
   fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   if (r.checked) {
     fmt::print("collisions       {}\n", r.collisions);

@@ -24,17 +24,17 @@ namespace {
 bool EndsOn(const std::string& file, const char* ending) { return std::filesystem::path(file).extension() == ending; }
 
 // "ROAD:LANE", a track of the network.
-base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::string& wish) {
+base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::string& lane_text) {
   const auto longest =
       std::max_element(graph.tracks().begin(), graph.tracks().end(),
                        [](const lanes::Track& a, const lanes::Track& b) { return a.length_m() < b.length_m(); });
   if (longest == graph.tracks().end()) return base::WrongInput("world.no_lane", "the map has no lane", "--diagram");
-  if (wish.empty()) return static_cast<std::uint32_t>(longest - graph.tracks().begin());
-  const auto colon = wish.rfind(':');
+  if (lane_text.empty()) return static_cast<std::uint32_t>(longest - graph.tracks().begin());
+  const auto colon = lane_text.rfind(':');
   int lane = 0;
-  const char* end = wish.data() + wish.size();
-  const bool good = colon != std::string::npos && std::from_chars(wish.data() + colon + 1, end, lane).ptr == end;
-  const std::string road = good ? wish.substr(0, colon) : wish;
+  const char* end = lane_text.data() + lane_text.size();
+  const bool good = colon != std::string::npos && std::from_chars(lane_text.data() + colon + 1, end, lane).ptr == end;
+  const std::string road = good ? lane_text.substr(0, colon) : lane_text;
   std::vector<std::string> known;
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const network::LaneKey& key = graph[track].lane;
@@ -42,10 +42,10 @@ base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::stri
     if (good && id == road && key.lane == lane) return track;
     known.push_back(fmt::format("{}:{}", id, key.lane));
   }
-  return base::WrongInput(
-      "world.unknown_lane",
-      fmt::format("'{}' was found; a drivable lane as ROAD:LANE was expected{}", wish, base::DidYouMean(wish, known)),
-      "--lane");
+  return base::WrongInput("world.unknown_lane",
+                          fmt::format("'{}' was found; a drivable lane as ROAD:LANE was expected{}", lane_text,
+                                      base::DidYouMean(lane_text, known)),
+                          "--lane");
 }
 
 base::Status WriteText(const std::string& file, const std::string& text) {

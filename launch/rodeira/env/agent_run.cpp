@@ -105,8 +105,8 @@ bool AgentRun::IsEventTopic(std::string_view topic) const {
   });
 }
 
-base::Result<AgentRun::Stage> AgentRun::MakeStage(std::uint64_t seed, const std::string& record) {
-  Stage stage;
+base::Result<AgentRun::SeedNodes> AgentRun::MakeSeedNodes(std::uint64_t seed, const std::string& record) {
+  SeedNodes seed_nodes;
   launch::Overrides overrides = overrides_;
   overrides.emplace_back("seed", std::to_string(seed));
   if (!record.empty()) {
@@ -116,15 +116,16 @@ base::Result<AgentRun::Stage> AgentRun::MakeStage(std::uint64_t seed, const std:
   }
   auto launch = launch::Launch::Load(launch_file_, overrides);
   if (!launch) return launch.error();
-  stage.launch = std::make_unique<launch::Launch>(std::move(launch).value());
-  auto made = LocalNodes::Make(*stage.launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
-    if (n == agent_) return nodes::InputNodeOf(nodes::MakeAgentSource(wanted_), stage.launch->roster().base_step_ns());
-    if (record.empty() && stage.launch->node(n).kind->name == "recorder") return replay::MakeNullSink();
+  seed_nodes.launch = std::make_unique<launch::Launch>(std::move(launch).value());
+  auto made = LocalNodes::Make(*seed_nodes.launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
+    if (n == agent_)
+      return nodes::InputNodeOf(nodes::MakeAgentSource(wanted_), seed_nodes.launch->roster().base_step_ns());
+    if (record.empty() && seed_nodes.launch->node(n).kind->name == "recorder") return replay::MakeNullSink();
     return nullptr;
   });
   if (!made) return made.error();
-  stage.nodes = std::make_unique<LocalNodes>(std::move(made).value());
-  return stage;
+  seed_nodes.nodes = std::make_unique<LocalNodes>(std::move(made).value());
+  return seed_nodes;
 }
 
 base::Status AgentRun::Reset(std::optional<std::uint64_t> seed, const std::string& record) {
@@ -132,44 +133,45 @@ base::Status AgentRun::Reset(std::optional<std::uint64_t> seed, const std::strin
     if (auto status = Finish(); !status) return status;
   }
   const std::uint64_t next_seed = seed.value_or(seed_);
-  if (next_seed != seed_) stage_.reset();
+  if (next_seed != seed_) seed_nodes_.reset();
   seed_ = next_seed;
   *wanted_ = {};
   if (!record.empty()) {
-    auto made = MakeStage(seed_, record);
+    auto made = MakeSeedNodes(seed_, record);
     if (!made) return made.error();
     recorded_ = std::move(made).value();
     return Begin(*recorded_);
   }
-  if (stage_ && !stage_->beginning.empty()) {
-    const base::Status again = BeginAgain(*stage_);
+  if (seed_nodes_ && !seed_nodes_->beginning.empty()) {
+    const base::Status again = BeginAgain(*seed_nodes_);
     if (!again || has_episode()) return again;
   }
-  stage_.reset();
-  auto made = MakeStage(seed_, {});
+  seed_nodes_.reset();
+  auto made = MakeSeedNodes(seed_, {});
   if (!made) return made.error();
-  stage_ = std::move(made).value();
-  if (auto status = Begin(*stage_); !status) return status;
-  if (CanBeginAgain(*stage_->launch, *stage_->nodes)) stage_->beginning = run_->Beginning();
+  seed_nodes_ = std::move(made).value();
+  if (auto status = Begin(*seed_nodes_); !status) return status;
+  if (CanBeginAgain(*seed_nodes_->launch, *seed_nodes_->nodes)) seed_nodes_->beginning = run_->Beginning();
   return {};
 }
 
-base::Status AgentRun::Begin(Stage& stage) {
+base::Status AgentRun::Begin(SeedNodes& seed_nodes) {
   for (auto& samples : samples_) samples.clear();
   step_ = 0;
   lockstep::SteppedRun::Settings settings;
-  settings.resume = stage.beginning;
+  settings.resume = seed_nodes.beginning;
   settings.on_sample = [this](const Sample& sample) { Take(sample); };
-  run_ = std::make_unique<lockstep::SteppedRun>(stage.launch->roster(), stage.nodes->nodes(), std::move(settings));
+  run_ = std::make_unique<lockstep::SteppedRun>(seed_nodes.launch->roster(), seed_nodes.nodes->nodes(),
+                                                std::move(settings));
   const base::Status started = run_->Start();
   if (!started) DropEpisode();
   return started;
 }
 
 // Without an episode and without an error where a node does not take its first state back: it is made anew then.
-base::Status AgentRun::BeginAgain(Stage& stage) {
-  if (auto status = Begin(stage); !status) return status;
-  if (!SameStates(run_->Beginning(), stage.beginning)) DropEpisode();
+base::Status AgentRun::BeginAgain(SeedNodes& seed_nodes) {
+  if (auto status = Begin(seed_nodes); !status) return status;
+  if (!SameStates(run_->Beginning(), seed_nodes.beginning)) DropEpisode();
   return {};
 }
 
@@ -180,7 +182,7 @@ base::Status AgentRun::Advance(const nodes::AgentControls& controls) {
   const base::Status status = run_->RunThrough(step_ - 1);
   if (!status) {
     DropEpisode();
-    stage_.reset();  // one of its nodes has failed
+    seed_nodes_.reset();  // one of its nodes has failed
   }
   return status;
 }

@@ -49,7 +49,7 @@ class AgentRun {
 
  private:
   // Nodes of one seed, made for one recording or for many episodes without one.
-  struct Stage {
+  struct SeedNodes {
     std::unique_ptr<launch::Launch> launch;
     std::unique_ptr<LocalNodes> nodes;
     std::vector<lockstep::Snapshot> beginning;  // empty: its nodes can be used once
@@ -57,9 +57,9 @@ class AgentRun {
 
   AgentRun() = default;
   base::Status KeepWorld();
-  base::Result<Stage> MakeStage(std::uint64_t seed, const std::string& record);
-  base::Status Begin(Stage& stage);
-  base::Status BeginAgain(Stage& stage);
+  base::Result<SeedNodes> MakeSeedNodes(std::uint64_t seed, const std::string& record);
+  base::Status Begin(SeedNodes& seed_nodes);
+  base::Status BeginAgain(SeedNodes& seed_nodes);
   void DropEpisode();
   void Take(const lockstep::Sample& sample);
   void ForgetSamples();
@@ -71,8 +71,8 @@ class AgentRun {
   std::shared_ptr<nodes::AgentControls> wanted_ = std::make_shared<nodes::AgentControls>();
   std::unique_ptr<const road::KeptWorld> world_;  // its files are read once; null: the run has none
   std::uint64_t seed_ = 0;
-  std::optional<Stage> stage_;                 // without a recording, of `seed_`
-  std::optional<Stage> recorded_;              // of the episode that is recorded
+  std::optional<SeedNodes> seed_nodes_;        // without a recording, of `seed_`
+  std::optional<SeedNodes> recorded_;          // of the episode that is recorded
   std::unique_ptr<lockstep::SteppedRun> run_;  // behind the nodes that it uses
   lockstep::Step step_ = 0;
   std::vector<std::deque<lockstep::Sample>> samples_;  // by source

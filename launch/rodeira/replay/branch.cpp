@@ -26,12 +26,12 @@ using lockstep::Snapshot;
 using lockstep::Step;
 
 // The parent's nodes at `at`: computed again from the snapshot before, each sample compared.
-base::Result<Recomputed> StatesAt(const replay::RecordedRun& parent, const BranchSpec& wish, BranchOutcome& outcome) {
+base::Result<Recomputed> StatesAt(const replay::RecordedRun& parent, const BranchSpec& spec, BranchOutcome& outcome) {
   Recomputation again;
-  again.from = wish.at;
-  again.last_step = wish.at;
-  again.snapshot_at = wish.at;
-  again.stop_requested = wish.stop_requested;
+  again.from = spec.at;
+  again.last_step = spec.at;
+  again.snapshot_at = spec.at;
+  again.stop_requested = spec.stop_requested;
   auto done = Recompute(parent, again);
   if (!done) return done.error();
   outcome.recomputed_from = done.value().verdict.first_step;
@@ -185,67 +185,67 @@ std::vector<std::string> NamesOf(const launch::Launch& launch, const std::vector
   return names;
 }
 
-base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchSpec& wish,
+base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchSpec& spec,
                                           const std::filesystem::path& own) {
-  launch::Overrides changes = wish.changes;
-  changes.insert(changes.end(), wish.libraries.begin(), wish.libraries.end());
+  launch::Overrides changes = spec.changes;
+  changes.insert(changes.end(), spec.libraries.begin(), spec.libraries.end());
   changes.emplace_back("nodes." + NodeOfKind(parent.launch(), "recorder") + ".config.file", "\"" + own.string() + "\"");
-  if (!wish.with_view) return changes;
+  if (!spec.with_view) return changes;
   const std::string view = NodeOfKind(parent.launch(), "view");
   if (view.empty())
-    return base::WrongInput("replay.no_view", "a view is wanted, but the recorded launch file has none", wish.parent);
+    return base::WrongInput("replay.no_view", "a view is wanted, but the recorded launch file has none", spec.parent);
   changes.emplace_back("nodes." + view + ".config.window", "always");
   changes.emplace_back("nodes." + view + ".config.frames", "~");  // pictures of the parent's
   return changes;
 }
 
 // As long as is wished, or as the changes say; otherwise as long as the parent.
-base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchSpec& wish) {
-  const bool says = std::any_of(wish.changes.begin(), wish.changes.end(),
+base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchSpec& spec) {
+  const bool says = std::any_of(spec.changes.begin(), spec.changes.end(),
                                 [](const auto& change) { return change.first == "duration_s"; });
   const auto duration_s = changed.launch().duration_s();
-  if (wish.last_step || !says || !duration_s) return wish.last_step.value_or(changed.last_step());
+  if (spec.last_step || !says || !duration_s) return spec.last_step.value_or(changed.last_step());
   const auto last_step =
       static_cast<Step>(std::llround(*duration_s * 1e9 / static_cast<double>(changed.roster().base_step_ns())));
-  if (last_step > wish.at) return last_step;
+  if (last_step > spec.at) return last_step;
   return base::WrongInput(
       "replay.wrong_branch_time",
       fmt::format("duration_s = {} was found; the branch begins at {:.3f} s", *duration_s,
-                  static_cast<double>(wish.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9),
-      wish.parent);
+                  static_cast<double>(spec.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9),
+      spec.parent);
 }
 
 }  // namespace
 
-base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
+base::Result<BranchOutcome> Branch(const BranchSpec& spec) {
   BranchOutcome outcome;
-  outcome.at = wish.at;
-  auto parent = replay::RecordedRun::Open(wish.parent, wish.libraries);
+  outcome.at = spec.at;
+  auto parent = replay::RecordedRun::Open(spec.parent, spec.libraries);
   if (!parent) return parent.error();
   outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
   if (auto status = parent.value().CheckTypes(); !status) return status.error();
   if (auto status = CheckExternalNodes(parent.value()); !status) return status.error();
-  if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
+  if (auto status = CheckStep(parent.value(), spec.at); !status) return status.error();
   auto folder = base::TemporaryFolder::Make("branch");
   if (!folder) return folder.error();
   const std::filesystem::path own = folder.value().path() / "branch.mcap";
-  const auto changes = ChangesOf(parent.value(), wish, own);
+  const auto changes = ChangesOf(parent.value(), spec, own);
   if (!changes) return changes.error();
   // What is wrong with the changes is said before anything is computed.
-  auto changed = replay::RecordedRun::Open(wish.parent, changes.value());
+  auto changed = replay::RecordedRun::Open(spec.parent, changes.value());
   if (!changed) return changed.error();
-  const auto last_step = LastStep(changed.value(), wish);
+  const auto last_step = LastStep(changed.value(), spec);
   if (!last_step) return last_step.error();
-  if (auto status = CheckGroundOfBranch(parent.value(), changed.value(), wish.changes, wish.at); !status)
+  if (auto status = CheckGroundOfBranch(parent.value(), changed.value(), spec.changes, spec.at); !status)
     return status.error();
   const launch::Launch& launch = changed.value().launch();
-  const std::vector<bool> persons = Persons(launch, wish.changes);
+  const std::vector<bool> persons = Persons(launch, spec.changes);
   outcome.live = NamesOf(launch, persons);
   const auto is_replayed = [&](NodeIndex n) { return launch.node(n).is_live() && !persons[n]; };
   const auto without_state = parent.value().WithoutState();
   if (!without_state) return without_state.error();
-  const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), launch, wish.changes);
+  const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), launch, spec.changes);
   GoingOn go_on;
   launch::RunLogBoard log;
   auto nodes = LocalNodes::Make(
@@ -256,9 +256,9 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
           go_on[n] = continued.get();
           return continued;
         }
-        if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, wish.at);
+        if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, spec.at);
         const std::string_view kind = launch.node(n).kind->name;
-        if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view"))
+        if (roster.node(n).is_sink() && kind != "recorder" && !(spec.with_view && kind == "view"))
           return replay::MakeNullSink();
         return nullptr;
       },
@@ -266,7 +266,7 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   if (!nodes) return changed.value().Named(nodes.error());
   WarnOfWorld(changed.value(), nodes.value());
 
-  auto states = StatesAt(parent.value(), wish, outcome);
+  auto states = StatesAt(parent.value(), spec, outcome);
   if (!states) return states.error();
   if (outcome.difference) return outcome;
   std::vector<Snapshot>& snapshots = states.value().snapshots;
@@ -275,50 +275,50 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   }
   for (const auto& [n, continued] : go_on)
     continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
-  auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, wish.changes, snapshots);
+  auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, spec.changes, snapshots);
   if (!taken_over) return changed.value().Named(taken_over.error());
   outcome.taken_over = std::move(taken_over).value();
 
   lockstep::InProcessSettings settings;
-  settings.first_step = wish.at;
+  settings.first_step = spec.at;
   settings.last_step = last_step.value();
   settings.resume = std::move(snapshots);
-  settings.stop_requested = wish.stop_requested;
-  settings.pace = wish.pace;
-  settings.next_command = wish.next_command;
+  settings.stop_requested = spec.stop_requested;
+  settings.pace = spec.pace;
+  settings.next_command = spec.next_command;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
+  const auto stopped = [&] { return spec.stop_requested && spec.stop_requested(); };
   const bool stopped_at_once =
-      !ran.ok && ran.last_step < wish.at && stopped();  // no node's fault: no step was driven yet
+      !ran.ok && ran.last_step < spec.at && stopped();  // no node's fault: no step was driven yet
   if (!ran.ok && !stopped_at_once)
     return changed.value().Named(
         base::Failed("replay.node_failed", fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   // What a person has driven cannot be driven again: it is kept.
   if (stopped_at_once || (stopped() && outcome.live.empty())) {
     return base::Failed("run.interrupted",
-                        fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)),
-                        wish.parent);
+                        fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, spec.at)),
+                        spec.parent);
   }
   outcome.last_step = ran.last_step;
 
   record::TextMap about{
-      {"parent", std::filesystem::path(wish.parent).filename().string()},
-      {"step", std::to_string(wish.at)},
-      {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
-  for (const auto& [key, value] : wish.changes) about["change " + key] = value;
-  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording,
-                                   outcome.live.empty() ? wish.stop_requested : std::function<bool()>());
+      {"parent", std::filesystem::path(spec.parent).filename().string()},
+      {"step", std::to_string(spec.at)},
+      {"time_s", fmt::format("{}", static_cast<double>(spec.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
+  for (const auto& [key, value] : spec.changes) about["change " + key] = value;
+  if (auto status = replay::Splice(parent.value(), own, spec.at, about, spec.recording,
+                                   outcome.live.empty() ? spec.stop_requested : std::function<bool()>());
       !status)
     return status.error();
   return outcome;
 }
 
-base::Result<LiveDrivers> DrivenLive(const BranchSpec& wish) {
-  auto changed = replay::RecordedRun::Open(wish.parent, wish.changes);
+base::Result<LiveDrivers> DrivenLive(const BranchSpec& spec) {
+  auto changed = replay::RecordedRun::Open(spec.parent, spec.changes);
   if (!changed) return changed.error();
   const launch::Launch& launch = changed.value().launch();
-  const std::vector<bool> persons = Persons(launch, wish.changes);
+  const std::vector<bool> persons = Persons(launch, spec.changes);
   LiveDrivers drivers{NamesOf(launch, persons), false};
   for (NodeIndex n = 0; n < persons.size(); ++n) {
     if (persons[n] && ReadsDevice(launch.node(n))) drivers.by_device = true;

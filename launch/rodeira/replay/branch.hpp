@@ -24,8 +24,9 @@ struct BranchSpec {
       {};                  // it fails then, and there is no new file; driven by a person, it ends there
   bool with_view = false;  // the launch file's view shows the branch as it is driven; otherwise it is not drawn
   double pace = 0.0;       // of the branch behind T, as Pacer: 0 as fast as possible, 1 real time
-  std::function<std::optional<lockstep::Asked>()> next_command = {};  // of an operator, for the branch behind T
-  launch::Overrides libraries = {};                                   // nodes.NAME.library, of external nodes
+  std::function<std::optional<lockstep::OperatorCommand>()> next_command =
+      {};                            // of an operator, for the branch behind T
+  launch::Overrides libraries = {};  // nodes.NAME.library, of external nodes
 };
 
 // What came of a branch.
@@ -48,13 +49,13 @@ struct BranchOutcome {
 // that takes live input (a wheel, a keyboard) is driven by a person where the changes name it, `nodes.NAME.…`;
 // otherwise by its recorded samples. Wrong input: a step outside the run or between two activations of a node, changes
 // that change the roster, a view where there is none.
-base::Result<BranchOutcome> Branch(const BranchSpec& wish);
+base::Result<BranchOutcome> Branch(const BranchSpec& spec);
 // The nodes that a person drives in a branch.
 struct LiveDrivers {
   std::vector<std::string> names;
   bool by_device = false;  // one of them by a wheel or a game pad
 };
 // The nodes that a person would drive, without computing anything.
-base::Result<LiveDrivers> DrivenLive(const BranchSpec& wish);
+base::Result<LiveDrivers> DrivenLive(const BranchSpec& spec);
 
 }  // namespace rodeira::cli

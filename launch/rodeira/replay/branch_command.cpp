@@ -25,7 +25,7 @@ namespace {
 using lockstep::Step;
 
 // `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
-base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphics) {
+base::Result<BranchSpec> SpecOf(const ReplayOptions& options, bool& needs_graphics) {
   if (!options.from_s)
     return base::WrongInput("command.missing_option",
                             "--from is missing; name the time in s at which the branch leaves its parent",
@@ -45,27 +45,27 @@ base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphi
                                         *options.from_s, 1.0 / steps_a_second),
                             options.file);
   }
-  BranchSpec wish;
-  wish.parent = options.file;
-  wish.at = steps(*options.from_s);
-  if (options.for_s) wish.last_step = wish.at + steps(*options.for_s);
+  BranchSpec spec;
+  spec.parent = options.file;
+  spec.at = steps(*options.from_s);
+  if (options.for_s) spec.last_step = spec.at + steps(*options.for_s);
   const auto named = WithNamedInputs(options.changes, parent.value().launch().path(), "--branch");
   if (!named) return named.error();
-  for (const auto& [key, value] : named.value()) wish.changes.emplace_back(key, WithFilesFromHere(value));
+  for (const auto& [key, value] : named.value()) spec.changes.emplace_back(key, WithFilesFromHere(value));
   auto libraries = LibrariesOf(options);
   if (!libraries) return libraries.error();
-  wish.libraries = std::move(libraries).value();
-  wish.recording = options.record;
-  wish.stop_requested = Interrupted;
-  wish.with_view = options.view;
-  const auto persons = DrivenLive(wish);
+  spec.libraries = std::move(libraries).value();
+  spec.recording = options.record;
+  spec.stop_requested = Interrupted;
+  spec.with_view = options.view;
+  const auto persons = DrivenLive(spec);
   if (!persons) return persons.error();
   const auto pace =
       launch::ParsePace(options.pace.value_or(options.view || !persons.value().names.empty() ? "real" : "max"));
   if (!pace) return pace.error();
-  wish.pace = pace.value();
+  spec.pace = pace.value();
   needs_graphics = options.view || persons.value().by_device;
-  return wish;
+  return spec;
 }
 
 void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
@@ -86,16 +86,17 @@ void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
 
 int MakeBranch(const ReplayOptions& options) {
   bool needs_graphics = false;
-  auto wish = WishOf(options, needs_graphics);
-  if (!wish) return base::PrintError("rodeira", wish.error());
+  auto spec = SpecOf(options, needs_graphics);
+  if (!spec) return base::PrintError("rodeira", spec.error());
   if (needs_graphics && CanContinueInGraphics()) return ContinueInGraphics("replay --branch");
-  std::unique_ptr<Operator> desk;
-  if (wish.value().pace > 0.0) {  // there is time to say something
-    desk = std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);
-    wish.value().next_command = [&desk] { return NextCommand(*desk); };
+  std::unique_ptr<Operator> run_operator;
+  if (spec.value().pace > 0.0) {  // there is time to say something
+    run_operator =
+        std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);
+    spec.value().next_command = [&run_operator] { return NextCommand(*run_operator); };
   }
-  const auto outcome = Branch(wish.value());
-  desk.reset();  // the terminal is a terminal again
+  const auto outcome = Branch(spec.value());
+  run_operator.reset();  // the terminal is a terminal again
   if (!outcome) return base::PrintError("rodeira", outcome.error());
   if (outcome.value().difference) {
     const int status = base::PrintError("rodeira", base::Failed("replay.different",

@@ -23,14 +23,14 @@ namespace {
 constexpr double kMaxStep_m = 0.3;  // between both grounds: a car's suspension takes it
 constexpr double kSameLength_m = 0.001;
 
-struct Standing {
+struct VehiclePlace {
   std::string name;
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
 };
 
 // Every car and traffic vehicle at a step at which all nodes are activated.
-base::Result<std::vector<Standing>> VehiclesAt(const replay::RecordedRun& parent, lockstep::Step at) {
-  std::vector<Standing> vehicles;
+base::Result<std::vector<VehiclePlace>> VehiclesAt(const replay::RecordedRun& parent, lockstep::Step at) {
+  std::vector<VehiclePlace> vehicles;
   auto samples = parent.Samples(at);
   for (;;) {
     const auto next = samples.Next();
@@ -53,14 +53,14 @@ base::Result<std::vector<Standing>> VehiclesAt(const replay::RecordedRun& parent
   }
 }
 
-bool HasRoadAt(const road::World& world, const Standing& vehicle, double z_m) {
+bool HasRoadAt(const road::World& world, const VehiclePlace& vehicle, double z_m) {
   if (world.network() == nullptr) return false;
   const auto place = world.network()->Locate(vehicle.x_m, vehicle.y_m, z_m);
   return place && place->distance_m == 0.0;
 }
 
 // Empty: the vehicle can go on there.
-std::string WhyNotOn(const road::World& world, const road::World& before, const Standing& vehicle) {
+std::string WhyNotOn(const road::World& world, const road::World& before, const VehiclePlace& vehicle) {
   const road::SurfacePoint now = world.At(vehicle.x_m, vehicle.y_m, vehicle.z_m);
   if (!now.inside) return "there is no ground";
   const road::SurfacePoint was = before.At(vehicle.x_m, vehicle.y_m, vehicle.z_m);
@@ -102,7 +102,7 @@ base::Status CheckGroundOfBranch(const replay::RecordedRun& parent, const replay
   };
   const auto vehicles = VehiclesAt(parent, at);
   if (!vehicles) return vehicles.error();
-  for (const Standing& vehicle : vehicles.value()) {
+  for (const VehiclePlace& vehicle : vehicles.value()) {
     const std::string why = WhyNotOn(*world.value(), *before.value(), vehicle);
     if (!why.empty())
       return refused(fmt::format("{} is at ({:.1f}, {:.1f}), where {}", vehicle.name, vehicle.x_m, vehicle.y_m, why));

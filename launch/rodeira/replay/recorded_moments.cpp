@@ -12,7 +12,7 @@ namespace rodeira::cli {
 using lockstep::Step;
 
 namespace {
-constexpr double kSaidAgain_s = 1.0;  // details of the traffic are said ten times a second: all that drive are in them
+constexpr double kRepeat_s = 1.0;  // details of the traffic are said ten times a second: all that drive are in them
 }
 
 RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources,
@@ -35,7 +35,7 @@ base::Result<scene::SceneSnapshot> RecordedMoments::Exactly(Step step) {
 base::Status RecordedMoments::FindWhatSays(std::optional<lockstep::Sample>& sample) {
   if (!sample) return {};
   const lockstep::Source& source = run_.roster().source(sample->source());
-  const Step longest = std::llround(kSaidAgain_s * 1e9 / static_cast<double>(run_.roster().base_step_ns()));
+  const Step longest = std::llround(kRepeat_s * 1e9 / static_cast<double>(run_.roster().base_step_ns()));
   const Step oldest = std::max<Step>(0, sample->valid() - longest);
   while (sample && !nodes::SaysSomething(source.topic, *sample->payload)) {
     const Step before = sample->valid() - source.period;

@@ -56,7 +56,7 @@ base::Status TakeSize(const std::string& text, nodes::ViewSettings& settings) {
       fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text), "--size");
 }
 
-base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
+base::Status ApplyOptions(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
   if (options.camera) {
     const auto camera = scene::CameraOf(*options.camera);
     if (!camera) {
@@ -168,7 +168,7 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   std::set<std::string_view> topics;
   for (const lockstep::SourceIndex source : seen.sources) topics.insert(roster.source(source).topic);
   if (auto status = run.CheckTypes(topics); !status) return status.error();
-  if (auto status = TakeWishes(roster, options, seen); !status) return status.error();
+  if (auto status = ApplyOptions(roster, options, seen); !status) return status.error();
   return seen;
 }
 

@@ -80,14 +80,14 @@ base::Result<launch::Overrides> LibrariesOf(const ReplayOptions& options) {
 }
 
 int Replay(const ReplayOptions& options) {
-  const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) +
-                     (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
-  if (wishes != 1) {
+  const int specs = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) +
+                    (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
+  if (specs != 1) {
     return base::PrintError(
         "rodeira",
         base::WrongInput("command.wrong_combination",
                          fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
-                                     wishes == 0 ? "nothing" : "more than one thing"),
+                                     specs == 0 ? "nothing" : "more than one thing"),
                          "replay"));
   }
   if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {

@@ -15,11 +15,11 @@ namespace rodeira::cli {
 base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step from,
                                   const std::function<void(lockstep::Step)>& on_progress,
                                   const std::function<bool()>& stop_requested) {
-  Recomputation wish;
-  wish.from = from;
-  wish.on_progress = on_progress;
-  wish.stop_requested = stop_requested;
-  auto done = Recompute(run, wish);
+  Recomputation spec;
+  spec.from = from;
+  spec.on_progress = on_progress;
+  spec.stop_requested = stop_requested;
+  auto done = Recompute(run, spec);
   if (!done) return done.error();
   return std::move(done.value().verdict);
 }
@@ -32,7 +32,7 @@ void WarnOfWorld(const replay::RecordedRun& run, const LocalNodes& nodes) {
   }
 }
 
-base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& spec) {
   const auto& roster = run.roster();
   if (auto status = run.CheckBytes(); !status) return status.error();
   if (auto status = run.CheckTypes(); !status) return status.error();
@@ -45,19 +45,19 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     if (!node.outputs.empty()) ahead = std::max(ahead, node.delay - node.period);
   }
   const auto at = run.SnapshotAtOrBefore(
-      wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
+      spec.snapshot_at ? std::min(spec.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : spec.from);
   if (!at) return at.error();
-  if (wish.snapshot_at && *wish.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
+  if (spec.snapshot_at && *spec.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
     return base::WrongInput("replay.no_sample_to_compare",
                             fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it",
                                         run.last_step(), at.value()),
                             run.path().string());
   }
-  if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
+  if (spec.snapshot_at && *spec.snapshot_at < at.value()) {
     return base::WrongInput(
         "replay.no_snapshot",
         fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}",
-                    *wish.snapshot_at, at.value()),
+                    *spec.snapshot_at, at.value()),
         run.path().string());
   }
   Recomputed recomputed;
@@ -65,7 +65,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   verdict.first_step = at.value();
   for (const lockstep::NodeIndex n : without_state.value()) {
     verdict.without_state.push_back(roster.node(n).name);
-    if (wish.snapshot_at) recomputed.last_published[n] = {};
+    if (spec.snapshot_at) recomputed.last_published[n] = {};
   }
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
@@ -80,7 +80,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     return nullptr;
   });
   if (!nodes) return run.Named(nodes.error());
-  if (!wish.snapshot_at) WarnOfWorld(run, nodes.value());  // a branch says what its own world needed
+  if (!spec.snapshot_at) WarnOfWorld(run, nodes.value());  // a branch says what its own world needed
   if (!run.world_hash().empty() && run.world_hash() != base::Hex(nodes.value().world_hash())) {
     return base::WrongInput("replay.other_world",
                             fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(),
@@ -90,18 +90,18 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
 
   lockstep::InProcessSettings settings;
   settings.first_step = at.value();
-  settings.last_step = wish.last_step.value_or(run.last_step());
-  if (wish.snapshot_at && *wish.snapshot_at > at.value()) {
+  settings.last_step = spec.last_step.value_or(run.last_step());
+  if (spec.snapshot_at && *spec.snapshot_at > at.value()) {
     recomputed.snapshots.resize(roster.nodes().size());
-    settings.snapshot_every = *wish.snapshot_at;
+    settings.snapshot_every = *spec.snapshot_at;
     settings.on_snapshot = [&](const lockstep::Snapshot& snapshot) {
-      if (snapshot.at == *wish.snapshot_at) recomputed.snapshots[snapshot.node] = snapshot;
+      if (snapshot.at == *spec.snapshot_at) recomputed.snapshots[snapshot.node] = snapshot;
     };
   }
-  if (at.value() > 0 || wish.snapshot_at == 0) {
+  if (at.value() > 0 || spec.snapshot_at == 0) {
     auto snapshots = run.Snapshots(at.value());
     if (!snapshots) return snapshots.error();
-    if (wish.snapshot_at == at.value()) recomputed.snapshots = snapshots.value();
+    if (spec.snapshot_at == at.value()) recomputed.snapshots = snapshots.value();
     if (at.value() > 0) settings.resume = std::move(snapshots).value();
     for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
       if (trusted[n] && !settings.resume.empty()) settings.resume[n].state.clear();  // it was another node's
@@ -114,12 +114,12 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     if (comparison.differs()) stop = true;
     const auto last = recomputed.last_published.find(roster.source(sample.source()).node);
     if (last == recomputed.last_published.end() || sample.source() == roster.node(last->first).snapshots) return;
-    if (sample.valid() == *wish.snapshot_at + roster.node(last->first).delay) last->second.push_back(sample);
+    if (sample.valid() == *spec.snapshot_at + roster.node(last->first).delay) last->second.push_back(sample);
   };
-  const auto interrupted = [&wish] { return wish.stop_requested && wish.stop_requested(); };
+  const auto interrupted = [&spec] { return spec.stop_requested && spec.stop_requested(); };
   settings.stop_requested = [&] { return stop.load() || interrupted(); };
-  if (wish.on_progress)
-    settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
+  if (spec.on_progress)
+    settings.on_progress = [&](const lockstep::Clock& clock) { spec.on_progress(clock.slowest_progress()); };
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   if (interrupted() && !comparison.differs())
     return base::Failed("run.interrupted",
@@ -128,7 +128,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   comparison.Finish(std::min(outcome.last_step, run.last_step()));
   for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
     recomputed.snapshots[n].node = n;
-    recomputed.snapshots[n].at = *wish.snapshot_at;
+    recomputed.snapshots[n].at = *spec.snapshot_at;
   }
   if (comparison.problem()) return *comparison.problem();
   if (!outcome.ok && !comparison.first())
@@ -138,7 +138,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();
   verdict.difference = comparison.first();
-  if (wish.snapshot_at) recomputed.nodes = std::make_shared<LocalNodes>(std::move(nodes).value());
+  if (spec.snapshot_at) recomputed.nodes = std::make_shared<LocalNodes>(std::move(nodes).value());
   return recomputed;
 }
 

@@ -46,7 +46,7 @@ struct Recomputed {
 };
 // Runs the recorded nodes in this process. Wrong input where the recording cannot be read or begun, failed where a node
 // fails.
-base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
+base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& spec);
 
 // Says on standard error what was repaired in the recorded world, as a run does.
 void WarnOfWorld(const replay::RecordedRun& run, const LocalNodes& nodes);

@@ -105,7 +105,7 @@ base::Status WriteFrames(const WatchOptions& options) {
   if (!steps) return steps.error();
   settings.frame_steps = std::move(steps).value();
   settings.folder = options.frames;
-  settings.window = nodes::WindowWish::kNever;
+  settings.window = nodes::WindowMode::kNever;
   if (auto status = nodes::PrepareFolder(settings.folder); !status) return status.error().WithContext("--frames");
   auto world = nodes::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());

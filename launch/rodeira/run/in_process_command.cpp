@@ -72,7 +72,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   CatchInterrupts();
   const std::jthread guard(EndWhatHangs);
   const auto& roster = launch.roster();
-  Operator desk(options.run, options.quiet);
+  Operator run_operator(options.run, options.quiet);
   launch::RunLogBoard log;
   auto nodes = LocalNodes::Make(launch, {}, &log);
   if (!nodes) return base::PrintError("rodeira", nodes.error());
@@ -85,7 +85,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   settings.pace = launch::ParsePace(options.pace).value();
   settings.stop_requested = Interrupted;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
-  settings.next_command = [&desk] { return NextCommand(desk); };
+  settings.next_command = [&run_operator] { return NextCommand(run_operator); };
   const auto start = WallClock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = SecondsSince(start);

@@ -86,16 +86,17 @@ std::optional<AskedLine> Operator::Next() {
   return std::nullopt;
 }
 
-std::optional<lockstep::Asked> NextCommand(Operator& desk) {
-  while (auto line = desk.Next()) {
+std::optional<lockstep::OperatorCommand> NextCommand(Operator& run_operator) {
+  while (auto line = run_operator.Next()) {
     const auto command = launch::ParseCommand(line->line);
     if (!command) {
       line->answer(launch::AnswerLine(command.error()));
       continue;
     }
-    return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
-                             answer(launch::AnswerLine(done));
-                           }};
+    return lockstep::OperatorCommand{command.value(),
+                                     [answer = std::move(line->answer)](const base::Result<std::string>& done) {
+                                       answer(launch::AnswerLine(done));
+                                     }};
   }
   return std::nullopt;
 }

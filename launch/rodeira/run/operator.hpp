@@ -43,6 +43,6 @@ class Operator {
 };
 
 // The next command of theirs for a run in this process; an unreadable one is answered at once.
-std::optional<lockstep::Asked> NextCommand(Operator& desk);
+std::optional<lockstep::OperatorCommand> NextCommand(Operator& run_operator);
 
 }  // namespace rodeira::cli

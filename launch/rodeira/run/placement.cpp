@@ -68,7 +68,7 @@ base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions
   }
   if (options.run.empty()) options.run = placement.lab_->run();
   if (!options.domain) options.domain = placement.lab_->domain();
-  for (auto& wish : placement.lab_->For(host.value())) overrides.push_back(std::move(wish));
+  for (auto& setting : placement.lab_->For(host.value())) overrides.push_back(std::move(setting));
   if (!launch.file().root().Peek({"limits", "start_s"})) overrides.emplace_back("limits.start_s", kStartPatience_s);
   return placement;
 }

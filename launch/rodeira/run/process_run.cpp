@@ -53,8 +53,8 @@ class ProcessRun {
         network_need_(dds::NeedOf(launch)) {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
-    if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
-    if (desk_) desk_->Listen(PauseButtons::Open(launch));
+    if (placement.has_clock()) operator_.emplace(options.run, options.quiet);
+    if (operator_) operator_->Listen(PauseButtons::Open(launch));
   }
 
   int Run() {
@@ -92,12 +92,12 @@ class ProcessRun {
     Tell(report_.recovered.back());
     return {};
   }
-  base::Status RestartNode(const RunReport::Restart& wish) {
-    const auto done = processes_.RestartNode(wish.node, wish.incarnation);
+  base::Status RestartNode(const RunReport::Restart& restart) {
+    const auto done = processes_.RestartNode(restart.node, restart.incarnation);
     if (!done) return done.error();
     if (done.value() == NodeProcesses::Restarted::kElsewhere) return {};
-    told_.erase(wish.node);
-    if (!wish.reason.empty()) Tell(wish.reason + "; it is started again");
+    told_.erase(restart.node);
+    if (!restart.reason.empty()) Tell(restart.reason + "; it is started again");
     return {};
   }
 
@@ -110,8 +110,8 @@ class ProcessRun {
         if (auto status = processes_.StartNodes(); !status) return status;
       }
       if (!report_.wanted.empty() && NetworkRuns()) {
-        for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
-          if (auto status = RestartNode(wish); !status) return status;
+        for (const RunReport::Restart& restart : std::exchange(report_.wanted, {})) {
+          if (auto status = RestartNode(restart); !status) return status;
         }
       }
       for (const std::string& reason : std::exchange(report_.paused_by, {})) {
@@ -163,7 +163,7 @@ class ProcessRun {
     // A client that floods waits: the processes are looked after in between.
     constexpr int kMaxAtATime = 16;
     for (int i = 0; i < kMaxAtATime; ++i) {
-      auto asked = desk_ ? desk_->Next() : std::nullopt;
+      auto asked = operator_ ? operator_->Next() : std::nullopt;
       if (!asked) return;
       // What would end a line or a text is no part of a command.
       std::replace_if(
@@ -293,7 +293,7 @@ class ProcessRun {
           static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
       fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s,
                  report_.wall_s, report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0,
-                 report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
+                 report_.paused ? ", paused" : "", operator_ && operator_->has_keys() ? " (h: keys)" : "");
     }
     shown_ = true;
   }
@@ -343,7 +343,7 @@ class ProcessRun {
   SilentNodes silent_{[this](const std::string& node) { return FateOfSilent(node); }, 500ms};
   std::string fault_;
   std::string pending_;
-  std::optional<Operator> desk_;  // where the clock is
+  std::optional<Operator> operator_;  // where the clock is
   std::size_t asked_ = 0;
   std::map<std::size_t, std::function<void(const std::string&)>> answers_;
   int passed_on_ = 0;

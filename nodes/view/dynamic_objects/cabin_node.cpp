@@ -17,7 +17,7 @@ namespace {
 constexpr int kDial_px = 512, kGear_px = 64;
 
 // From a facing thing's frame to the eye's.
-osg::Matrixd MatrixOf(const scene::Facing& place) {
+osg::Matrixd MatrixOf(const scene::CabinPose& place) {
   const Eigen::Vector3d o = place.ToE(Eigen::Vector3d::Zero());
   osg::Matrixd matrix;
   for (int axis = 0; axis < 3; ++axis) {

@@ -20,7 +20,7 @@ bool StartVideo(const char* driver) {
   return SDL_VideoInit(driver) == 0;
 }
 
-void AskForContext(int samples) {
+void SetContextHints(int samples) {
   SDL_GL_ResetAttributes();
   SDL_GL_SetAttribute(SDL_GL_RED_SIZE, 8);
   SDL_GL_SetAttribute(SDL_GL_GREEN_SIZE, 8);
@@ -82,7 +82,7 @@ bool Surface::MakeContext(int width_px, int height_px, const std::string& title,
   if (kind_ == SurfaceKind::kWindow) flags |= SDL_WINDOW_SHOWN;
   if (resizable_) flags |= SDL_WINDOW_RESIZABLE;
   const int place = static_cast<int>(SDL_WINDOWPOS_CENTERED_DISPLAY(display < SDL_GetNumVideoDisplays() ? display : 0));
-  AskForContext(samples);
+  SetContextHints(samples);
   window_ = SDL_CreateWindow(title.c_str(), place, place, width_px, height_px, flags);
   if (window_ != nullptr) context_ = SDL_GL_CreateContext(window_);
   if (context_ == nullptr) DropContext();
@@ -97,16 +97,16 @@ void Surface::DropContext() {
 }
 
 base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display,
-                                 std::optional<Quality> wish) {
+                                 std::optional<Quality> quality) {
   resizable_ = resizable;
   const auto make = [&](int samples) {  // smooth edges where they are to be had
     return (samples > 0 && MakeContext(width_px, height_px, title, display, samples)) ||
            MakeContext(width_px, height_px, title, display, 0);
   };
-  const Quality guess = wish.value_or(kind_ == SurfaceKind::kWindow ? Quality::kHigh : Quality::kMedium);
+  const Quality guess = quality.value_or(kind_ == SurfaceKind::kWindow ? Quality::kHigh : Quality::kMedium);
   bool made = make(TraitsOf(guess).samples);
   quality_ = guess;
-  if (made && !wish && kind_ == SurfaceKind::kWindow &&
+  if (made && !quality && kind_ == SurfaceKind::kWindow &&
       IsSoftware(RendererName())) {  // it needs its time for more pictures a second
     DropContext();
     quality_ = Quality::kLow;

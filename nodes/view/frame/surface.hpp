@@ -50,7 +50,7 @@ class Surface {
  private:
   Surface() = default;
   base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display,
-                          std::optional<Quality> wish);
+                          std::optional<Quality> quality);
   bool MakeContext(int width_px, int height_px, const std::string& title, int display, int samples);
   void DropContext();
 

@@ -74,7 +74,7 @@ osg::ref_ptr<osg::Geometry> RepeatedGeometry(const scene::Repeated& repeated) {
       colours[i] = {static_cast<unsigned char>(std::lround(4.0F * repeated.light[i])), 0, 0, 0};
   }
   osg::ref_ptr<osg::Vec4Array> places = new osg::Vec4Array, shapes = new osg::Vec4Array;
-  for (const scene::StandingPlace& place : repeated.places) {
+  for (const scene::PlacedCopy& place : repeated.places) {
     const Eigen::Vector3f foot = (place.stand.foot_W - repeated.origin_W).cast<float>();
     const Eigen::Vector2f x = place.stand.x_W.cast<float>();
     const scene::Colour c = place.leaves;

@@ -33,13 +33,13 @@ bool CanDraw() {
 }
 
 // A button that does what a key does, and names it.
-void Key(const char* label, const char* name, int symbol, MenuWish& wish) {
-  if (ImGui::Button(fmt::format("{}  ({})###{}", label, name, label).c_str(), {-FLT_MIN, 0.0F})) wish.key = symbol;
+void Key(const char* label, const char* name, int symbol, MenuRequest& request) {
+  if (ImGui::Button(fmt::format("{}  ({})###{}", label, name, label).c_str(), {-FLT_MIN, 0.0F})) request.key = symbol;
 }
 
-void Switch(const char* label, const char* name, bool is, int symbol, MenuWish& wish) {
+void Switch(const char* label, const char* name, bool is, int symbol, MenuRequest& request) {
   bool box = is;
-  if (ImGui::Checkbox(fmt::format("{}  ({})###{}", label, name, label).c_str(), &box)) wish.key = symbol;
+  if (ImGui::Checkbox(fmt::format("{}  ({})###{}", label, name, label).c_str(), &box)) request.key = symbol;
 }
 
 }  // namespace
@@ -122,14 +122,14 @@ bool Menu::Sort(const SDL_Event& event) {
   }
 }
 
-MenuWish Menu::Draw(const MenuSight& sight, int width_px, int height_px) {
+MenuRequest Menu::Draw(const MenuSight& sight, int width_px, int height_px) {
   width_px_ = width_px;
   place_ = {};
   unrest_ = std::max(unrest_ - 1, 0);
-  MenuWish wish;
-  if (!open_ && !near_) return wish;
+  MenuRequest request;
+  if (!open_ && !near_) return request;
   if (panels_ == nullptr) panels_ = std::make_unique<Panels>();
-  if (!panels_->draws) return wish;
+  if (!panels_->draws) return request;
   ImGui::SetCurrentContext(panels_->context);
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
@@ -147,7 +147,7 @@ MenuWish Menu::Draw(const MenuSight& sight, int width_px, int height_px) {
   if (open_) {
     ImGui::SetNextWindowSizeConstraints({kWidth_px, 0.0F}, {kWidth_px, io.DisplaySize.y - 2.0F * kMargin_px});
     ImGui::Begin("menu", nullptr, kFixed);
-    wish = DrawEntries(sight);
+    request = DrawEntries(sight);
   } else {
     ImGui::Begin("closed", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
     open_ = ImGui::Button("menu", {kButtonWidth_px, kButtonHeight_px});
@@ -157,48 +157,49 @@ MenuWish Menu::Draw(const MenuSight& sight, int width_px, int height_px) {
   ImGui::End();
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  return wish;
+  return request;
 }
 
-MenuWish Menu::DrawEntries(const MenuSight& sight) {
-  MenuWish wish;
+MenuRequest Menu::DrawEntries(const MenuSight& sight) {
+  MenuRequest request;
   if (ImGui::Button("close the menu  (f1)###close", {-FLT_MIN, 0.0F})) open_ = false;
   ImGui::TextUnformatted("camera  (k)");
   const auto cameras = scene::CameraNames();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (i % 2 != 0) ImGui::SameLine(0.5F * kWidth_px);
     const auto kind = static_cast<scene::CameraKind>(i);
-    if (ImGui::RadioButton(std::string(cameras[i]).c_str(), kind == sight.camera)) wish.camera = kind;
+    if (ImGui::RadioButton(std::string(cameras[i]).c_str(), kind == sight.camera)) request.camera = kind;
   }
-  Key("next vehicle", "tab", SDLK_TAB, wish);
-  Key("from above, and back", "f9", SDLK_F9, wish);
-  Key("statistics on the ground", "f8", SDLK_F8, wish);
+  Key("next vehicle", "tab", SDLK_TAB, request);
+  Key("from above, and back", "f9", SDLK_F9, request);
+  Key("statistics on the ground", "f8", SDLK_F8, request);
   ImGui::Separator();
-  Switch("mirrors", "f4", sight.mirrors, SDLK_F4, wish);
-  Switch("statistics", "f3", sight.statistics, SDLK_F3, wish);
-  Switch("all keys", "h", sight.help, SDLK_h, wish);
-  Switch("sound", "f5", sight.sound, SDLK_F5, wish);
+  Switch("mirrors", "f4", sight.mirrors, SDLK_F4, request);
+  Switch("statistics", "f3", sight.statistics, SDLK_F3, request);
+  Switch("all keys", "h", sight.help, SDLK_h, request);
+  Switch("sound", "f5", sight.sound, SDLK_F5, request);
   auto volume = static_cast<float>(100.0 * sight.volume);
   ImGui::SetNextItemWidth(0.5F * kWidth_px);
-  if (ImGui::SliderFloat("volume", &volume, 0.0F, 100.0F, "%.0f %%")) wish.volume = static_cast<double>(volume) / 100.0;
+  if (ImGui::SliderFloat("volume", &volume, 0.0F, 100.0F, "%.0f %%"))
+    request.volume = static_cast<double>(volume) / 100.0;
   if (sight.live) {
     ImGui::Separator();
-    Key("place the car by a click", "f6", SDLK_F6, wish);
-    Key("back to the start", "f2", SDLK_F2, wish);
+    Key("place the car by a click", "f6", SDLK_F6, request);
+    Key("back to the start", "f2", SDLK_F2, request);
     ImGui::TextUnformatted("weather  (f7)");
     const auto weathers = weather::NamedWeathers();
     for (std::size_t i = 0; i < weathers.size(); ++i) {
       if (i % 3 != 0) ImGui::SameLine();
-      if (ImGui::SmallButton(std::string(weathers[i].name).c_str())) wish.weather = i;
+      if (ImGui::SmallButton(std::string(weathers[i].name).c_str())) request.weather = i;
     }
-    Key("pause, and go on", "space", SDLK_SPACE, wish);
-    Key("one step", "return", SDLK_RETURN, wish);
+    Key("pause, and go on", "space", SDLK_SPACE, request);
+    Key("one step", "return", SDLK_RETURN, request);
   }
   ImGui::Separator();
-  Key("picture into a file", "f12", SDLK_F12, wish);
-  Key("full screen", "f", SDLK_f, wish);
-  Key(sight.live ? "close the window" : "end", "esc", SDLK_ESCAPE, wish);
-  return wish;
+  Key("picture into a file", "f12", SDLK_F12, request);
+  Key("full screen", "f", SDLK_f, request);
+  Key(sight.live ? "close the window" : "end", "esc", SDLK_ESCAPE, request);
+  return request;
 }
 
 }  // namespace rodeira::nodes

@@ -20,7 +20,7 @@ struct MenuSight {
 };
 
 // What was chosen in it: at most one of these.
-struct MenuWish {
+struct MenuRequest {
   std::optional<int> key;  // as if it were pressed, by SDL's symbols
   std::optional<scene::CameraKind> camera;
   std::optional<std::size_t> weather;  // of weather::NamedWeathers()
@@ -43,7 +43,7 @@ class Menu {
   bool Take(const SDL_Event& event);
   // Draws it over what the current context shows, and leaves the context's state as it was. Nothing is drawn where
   // OpenGL is older than 3.0.
-  MenuWish Draw(const MenuSight& sight, int width_px, int height_px);
+  MenuRequest Draw(const MenuSight& sight, int width_px, int height_px);
   // Whether the next picture of it may be another one although nothing else happens.
   bool is_restless() const { return unrest_ > 0; }
 
@@ -54,7 +54,7 @@ class Menu {
     bool Holds(int x_px, int y_px) const;
   };
   bool Sort(const SDL_Event& event);
-  MenuWish DrawEntries(const MenuSight& sight);
+  MenuRequest DrawEntries(const MenuSight& sight);
 
   std::unique_ptr<Panels> panels_;
   bool open_ = false;

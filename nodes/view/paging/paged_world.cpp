@@ -54,8 +54,8 @@ std::size_t HeldLevels(const PagedWorld& paged) {
   return held;
 }
 
-void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
-              const osg::Vec3d& eye_W, double far_m) {
+void RequestAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
+                  const osg::Vec3d& eye_W, double far_m) {
   constexpr std::size_t kAtOnce = 8;
   std::vector<std::pair<double, osg::PagedLOD*>> missing;
   for (osg::PagedLOD* tile : paged.tiles) {

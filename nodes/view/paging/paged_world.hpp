@@ -30,8 +30,8 @@ std::size_t HeldLevels(const PagedWorld& paged);
 // Asks for the coarsest level of the nearest few tiles that have none, wherever one looks: a viewer that turns round
 // finds ground there. What a picture itself asks for comes first. `last`: of the picture before; to be asked again with
 // each picture.
-void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
-              const osg::Vec3d& eye_W, double far_m);
+void RequestAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
+                  const osg::Vec3d& eye_W, double far_m);
 // Whether the pager still reads, or makes, what it was asked for; what is there waits for the next picture.
 bool IsReading(osgDB::DatabasePager& pager);
 

@@ -220,8 +220,8 @@ base::Status Renderer::UseCarModel(const std::filesystem::path& file) {
 void Renderer::Draw(const Picture& picture) {
   osgViewer::Viewer& viewer = parts_->viewer;
   if (parts_->paged.root)
-    AskAhead(parts_->paged, *viewer.getDatabasePager(), *viewer.getFrameStamp(), ToOsg(CameraOf(picture).eye_W),
-             kFar_m);
+    RequestAhead(parts_->paged, *viewer.getDatabasePager(), *viewer.getFrameStamp(), ToOsg(CameraOf(picture).eye_W),
+                 kFar_m);
   DrawOnce(picture, {0, surface_.width_px(), surface_.height_px()}, false);
 }
 

@@ -10,8 +10,8 @@
 #include "common/core/base/exhaustion.hpp"
 #include "common/core/base/wait.hpp"
 #include "nodes/view/frame/png.hpp"
-#include "nodes/view/run_connection/asker.hpp"
 #include "nodes/view/run_connection/key_forwarder.hpp"
+#include "nodes/view/run_connection/live_requester.hpp"
 #include "nodes/view/window/view_window.hpp"
 
 namespace rodeira::nodes {
@@ -28,9 +28,9 @@ constexpr std::string_view kNoSurfaceText =
 
 struct RenderThread::State {
   std::unique_ptr<ViewWindow> screen;
-  std::unique_ptr<KeyForwarder> keys;   // null: the window drives nothing
-  std::unique_ptr<Asker> asker;         // null: no node takes requests
-  std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
+  std::unique_ptr<KeyForwarder> keys;             // null: the window drives nothing
+  std::unique_ptr<LiveRequester> live_requester;  // null: no node takes requests
+  std::unique_ptr<WheelButtons> wheel;            // null: it has no buttons for the window
   scene::PicturePace pace;
 };
 
@@ -114,25 +114,25 @@ base::Status RenderThread::Drain() {
 }
 
 void RenderThread::Run() {
-  State hand;
+  State state;
   std::unique_ptr<Surface> surface;
   std::filesystem::path built;
   base::Status status = ReadFirst(surface, built);
   const bool draws = status.ok() && surface != nullptr;
   if (draws) {
-    if (!settings_.waits_for_picture) Answer({}, hand, true);
-    status = SetUp(hand, std::move(surface), std::move(built));
+    if (!settings_.waits_for_picture) Answer({}, state, true);
+    status = SetUp(state, std::move(surface), std::move(built));
   }
-  const bool go_on = status.ok() && hand.screen != nullptr;
-  Answer(std::move(status), hand, go_on);
-  if (go_on) Loop(hand);
+  const bool go_on = status.ok() && state.screen != nullptr;
+  Answer(std::move(status), state, go_on);
+  if (go_on) Loop(state);
 }
 
-void RenderThread::Answer(base::Status status, const State& hand, bool draws) {
+void RenderThread::Answer(base::Status status, const State& state, bool draws) {
   {
     const std::lock_guard lock(mutex_);
-    window_ = status.ok() && hand.screen != nullptr &&
-              (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+    window_ = status.ok() && state.screen != nullptr &&
+              (state.screen->surface().kind() == SurfaceKind::kWindow || state.screen->has_headset());
     if (!ready_) {
       nothing_to_draw_ = !draws;
       set_up_ = std::move(status);
@@ -153,8 +153,8 @@ base::Status RenderThread::OpenSurfaceFor(std::unique_ptr<Surface>& surface) con
     surface = std::move(opened).value();
     return {};
   };
-  if (settings_.window == WindowWish::kAlways) return open(SurfaceKind::kWindow);
-  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow))
+  if (settings_.window == WindowMode::kAlways) return open(SurfaceKind::kWindow);
+  if (settings_.window == WindowMode::kAuto && HasDisplay() && open(SurfaceKind::kWindow))
     return {};  // a display without OpenGL is as good as none
   return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
 }
@@ -172,87 +172,90 @@ base::Status RenderThread::ReadFirst(std::unique_ptr<Surface>& surface, std::fil
   return {};
 }
 
-base::Status RenderThread::SetUp(State& hand, std::unique_ptr<Surface> surface, std::filesystem::path built) {
+base::Status RenderThread::SetUp(State& state, std::unique_ptr<Surface> surface, std::filesystem::path built) {
   ViewSettings settings = settings_;
   settings.built = std::move(built);
   const std::string own = WindowHelp(settings_.mouse_button),
                     help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
   auto screen = ViewWindow::Open(std::move(surface), settings, *world_, help);
   if (!screen) return screen.error();
-  hand.screen = std::move(screen).value();
-  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() &&
-      !hand.screen->has_headset()) {
-    hand.screen.reset();
+  state.screen = std::move(screen).value();
+  if (state.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() &&
+      !state.screen->has_headset()) {
+    state.screen.reset();
     return {};
   }
-  if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
-  if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);
+  if (keys_ != nullptr) state.keys = std::make_unique<KeyForwarder>(std::move(keys_));
+  if (state.screen->surface().kind() == SurfaceKind::kWindow)
+    state.wheel = WheelButtons::Open(settings_.camera_buttons);
   if (requests_ != nullptr) {
-    hand.asker = std::make_unique<Asker>(std::move(requests_));
-    hand.screen->set_ask([&asker = *hand.asker](const scenario::Request& request) { return asker.Ask(request); });
+    state.live_requester = std::make_unique<LiveRequester>(std::move(requests_));
+    state.screen->set_ask([&live_requester = *state.live_requester](const scenario::Request& request) {
+      return live_requester.Request(request);
+    });
   }
   return {};
 }
 
-void RenderThread::Loop(State& hand) {
+void RenderThread::Loop(State& state) {
   std::unique_lock lock(mutex_);
   while (!quit_) {
     if (!orders_.empty()) {
-      ServeOrder(hand, lock);
+      ServeOrder(state, lock);
     } else if (window_ && !history_.empty()) {
-      ShowWindow(hand, lock);
+      ShowWindow(state, lock);
     } else {
       changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000),
                         [&] { return quit_ || !orders_.empty(); });
       if (window_) {
         lock.unlock();
-        const bool open = ReadKeys(hand);
+        const bool open = ReadKeys(state);
         lock.lock();
         window_ = window_ && open;
       }
     }
-    if (hand.asker != nullptr) {
+    if (state.live_requester != nullptr) {
       const std::vector<scenario::Event> told = std::exchange(told_, {});
       lock.unlock();  // it writes to the bus, for which the run's thread must not wait
-      hand.asker->See(told);
-      hand.asker->Tell(launch::WallSeconds());
+      state.live_requester->See(told);
+      state.live_requester->Tell(launch::WallSeconds());
       lock.lock();
     }
   }
 }
 
-void RenderThread::ServeOrder(State& hand, std::unique_lock<std::mutex>& lock) {
+void RenderThread::ServeOrder(State& state, std::unique_lock<std::mutex>& lock) {
   const Ordered& order = orders_.front();  // others are only added behind it
   lock.unlock();
-  hand.screen->renderer().DrawWhole(order.picture);
-  base::Status status = WritePng(order.file, hand.screen->renderer().Read());
+  state.screen->renderer().DrawWhole(order.picture);
+  base::Status status = WritePng(order.file, state.screen->renderer().Read());
   lock.lock();
   if (written_) written_ = std::move(status);
   orders_.pop_front();
   changed_.notify_all();
 }
 
-void RenderThread::ShowWindow(State& hand, std::unique_lock<std::mutex>& lock) {
+void RenderThread::ShowWindow(State& state, std::unique_lock<std::mutex>& lock) {
   const double begin_s = launch::WallSeconds();
   const double rate = clock_.rate();
   lock.unlock();
-  bool open = ReadKeys(hand);
-  const bool waited = hand.screen->WaitForHeadset();
+  bool open = ReadKeys(state);
+  const bool waited = state.screen->WaitForHeadset();
   lock.lock();
   scene::SceneSnapshot moment = history_.At(clock_.Now(waited ? launch::WallSeconds() : begin_s) * 1e9);
   lock.unlock();
-  hand.screen->Show(std::move(moment), rate);
+  state.screen->Show(std::move(moment), rate);
   lock.lock();
-  open = open && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+  open = open && (state.screen->surface().kind() == SurfaceKind::kWindow || state.screen->has_headset());
   if (!open) window_ = false;
   if (waited) return;
-  const double rest_s = hand.pace.Next(begin_s, hand.screen->surface().beat()) - launch::WallSeconds();
+  const double rest_s = state.pace.Next(begin_s, state.screen->surface().beat()) - launch::WallSeconds();
   if (rest_s > 0.0)
     changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
 }
 
 // False where the person closed the window.
-bool RenderThread::ReadKeys(State& hand) {
+bool RenderThread::ReadKeys(State& state) {
   SDL_Event event;
   bool open = true;
   while (SDL_PollEvent(&event) != 0) {
@@ -260,17 +263,17 @@ bool RenderThread::ReadKeys(State& hand) {
     if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
     const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
                      (event.key.keysym.sym == SDLK_ESCAPE ||
-                      hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
-    if (hand.screen->TakeMouse(event)) continue;
-    if (!own && hand.keys != nullptr) hand.keys->Take(event);
+                      state.screen->TakeKey(event.key.keysym.sym, state.keys != nullptr, event.key.keysym.mod));
+    if (state.screen->TakeMouse(event)) continue;
+    if (!own && state.keys != nullptr) state.keys->Take(event);
   }
-  open = open && !hand.screen->asked_to_close();
-  if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);
-  if (hand.keys != nullptr) {
-    if (!open) hand.keys->ReleaseAll();
-    hand.keys->Tell(launch::WallSeconds());
+  open = open && !state.screen->asked_to_close();
+  if (state.wheel != nullptr && state.wheel->Pressed()) (void)state.screen->TakeKey(SDLK_k, true);
+  if (state.keys != nullptr) {
+    if (!open) state.keys->ReleaseAll();
+    state.keys->Tell(launch::WallSeconds());
   }
-  if (!open) hand.screen->surface().Hide();
+  if (!open) state.screen->surface().Hide();
   return open;
 }
 

@@ -63,14 +63,14 @@ class RenderThread {
   void Run();
   // The surface, null where there is nothing to draw here, and the world.
   base::Status ReadFirst(std::unique_ptr<Surface>& surface, std::filesystem::path& built);
-  base::Status SetUp(State& hand, std::unique_ptr<Surface> surface, std::filesystem::path built);
+  base::Status SetUp(State& state, std::unique_ptr<Surface> surface, std::filesystem::path built);
   // What Open or, if that has returned, status() says.
-  void Answer(base::Status status, const State& hand, bool draws);
+  void Answer(base::Status status, const State& state, bool draws);
   base::Status OpenSurfaceFor(std::unique_ptr<Surface>& surface) const;
-  void Loop(State& hand);
-  void ServeOrder(State& hand, std::unique_lock<std::mutex>& lock);
-  void ShowWindow(State& hand, std::unique_lock<std::mutex>& lock);
-  bool ReadKeys(State& hand);
+  void Loop(State& state);
+  void ServeOrder(State& state, std::unique_lock<std::mutex>& lock);
+  void ShowWindow(State& state, std::unique_lock<std::mutex>& lock);
+  bool ReadKeys(State& state);
 
   const ViewSettings settings_;
   const WorldReader reader_;

@@ -125,7 +125,7 @@ void ViewWindow::OpenHeadset(const ViewSettings& settings) {
     return base::Log(
         base::LogLevel::kWarning, "",
         fmt::format("no headset: {}; {}", headset.error().Text(),
-                    settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone"));
+                    settings.window == WindowMode::kNever ? "nothing is shown" : "shown in the window alone"));
   headset_ = std::move(headset).value();
   surface_->NeverWait();  // the headset says when
 }
@@ -231,7 +231,7 @@ void ViewWindow::Show(scene::SceneSnapshot moment, double rate, std::optional<Ti
   }
   if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, Loudness(rate)), interval_s_);
   if (picture_wanted_) TakePicture();
-  const std::string standing = is_live() ? standing_.See(live_.moment.time_ns, begin_s) : "";
+  const std::string standing = is_live() ? pause_monitor_.See(live_.moment.time_ns, begin_s) : "";
   if (!standing.empty()) live_.text += (live_.text.empty() ? "" : "\n\n") + standing;
   if (begin_s < note_until_s_) live_.text += (live_.text.empty() ? "" : "\n\n") + note_;
   if (headset_waits_) ShowInHeadset();

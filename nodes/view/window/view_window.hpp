@@ -18,7 +18,7 @@
 #include "nodes/view/overlays/menu.hpp"
 #include "nodes/view/renderer/renderer.hpp"
 #include "nodes/view/run_connection/ask_place.hpp"
-#include "nodes/view/run_connection/standing.hpp"
+#include "nodes/view/run_connection/pause_monitor.hpp"
 #include "nodes/view/sound/speaker.hpp"
 #include "nodes/view/view_settings.hpp"
 
@@ -127,7 +127,7 @@ class ViewWindow {
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
   std::array<bool, scene::kMirrors> mirrors_ = {true, true, true};  // those that the key brings back
   bool picture_wanted_ = false;
-  Standing standing_;
+  PauseMonitor pause_monitor_;
   std::string note_;  // what the window says for a while
   double note_until_s_ = 0.0;
   bool help_ = false;

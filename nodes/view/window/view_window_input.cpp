@@ -84,9 +84,9 @@ bool ViewWindow::TakeKey(int symbol, bool driven, int modifiers) {
       surface_->ToggleFullScreen();
       return true;
     case SDLK_SPACE:
-      return is_live() && Operate(standing_.Toggle());
+      return is_live() && Operate(pause_monitor_.Toggle());
     case SDLK_RETURN:
-      return is_live() && Operate(standing_.Step());
+      return is_live() && Operate(pause_monitor_.Step());
     default:
       return false;
   }
@@ -219,16 +219,16 @@ void ViewWindow::DrawMenu() {
   sight.help = help_;
   sight.live = !live_.timeline;
   sight.volume = volume_;
-  const MenuWish wish = menu_.Draw(sight, surface_->width_px(), surface_->height_px());
-  if (wish.key == SDLK_ESCAPE)
+  const MenuRequest request = menu_.Draw(sight, surface_->width_px(), surface_->height_px());
+  if (request.key == SDLK_ESCAPE)
     asked_to_close_ = true;
-  else if (wish.key)
-    (void)TakeKey(*wish.key, true);
-  if (wish.weather) AskForWeather(*wish.weather);
-  if (wish.volume) SetVolume(*wish.volume);
-  if (!wish.camera) return;
+  else if (request.key)
+    (void)TakeKey(*request.key, true);
+  if (request.weather) AskForWeather(*request.weather);
+  if (request.volume) SetVolume(*request.volume);
+  if (!request.camera) return;
   before_above_.reset();
-  live_.camera = *wish.camera;
+  live_.camera = *request.camera;
 }
 
 }  // namespace rodeira::nodes

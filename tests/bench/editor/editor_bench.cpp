@@ -73,13 +73,13 @@ editor::Document Map(std::string picture) {
   return document;
 }
 
-void Measure(nodes::EditorApp& desk, const char* what, int frames, const std::function<void(int)>& act) {
+void Measure(nodes::EditorApp& app, const char* what, int frames, const std::function<void(int)>& act) {
   std::vector<double> all;
   const double processor = Processor();
   for (int i = 0; i < frames; ++i) {
     const auto begin = Clock::now();
     act(i);
-    desk.Frame(0);
+    app.Frame(0);
     all.push_back(Milliseconds(begin));
   }
   std::sort(all.begin(), all.end());
@@ -102,28 +102,28 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   if (!window) return fmt::print("{}\n", window.error().Text());
   const double processor = Processor();
   const auto begin = Clock::now();
-  nodes::EditorApp desk(*window.value(), file, {});
-  desk.Frame(0);
+  nodes::EditorApp app(*window.value(), file, {});
+  app.Frame(0);
   fmt::print("{:28} {:.0f} ms\n", "opened, the map is seen", Milliseconds(begin));
   bool seen = false;
-  while (desk.work().picture.loading() || desk.wait_ms() < 100) {
-    desk.Frame(desk.wait_ms());
-    if (seen || desk.work().picture.picture() == nullptr) continue;
+  while (app.work().picture.loading() || app.wait_ms() < 100) {
+    app.Frame(app.wait_ms());
+    if (seen || app.work().picture.picture() == nullptr) continue;
     seen = true;
     fmt::print("{:28} {:.0f} ms\n", "the background is seen", Milliseconds(begin));
   }
   fmt::print("{:28} {:.0f} ms, of the processor {:.0f} ms\n", "in all its detail", Milliseconds(begin),
              Processor() - processor);
-  auto& view = desk.work().view;
-  Measure(desk, "standing, all of it", 60, [](int) {});
-  Measure(desk, "panning, all of it", 120, [&](int i) { view.Go({i < 60 ? 2.0 : -2.0, 1.0}); });
-  nodes::ShowAll(desk.work());
-  Measure(desk, "zooming in and out", 240, [&](int i) { view.Zoom(i < 120 ? 1.04 : 1.0 / 1.04, {400.0, 300.0}); });
+  auto& view = app.work().view;
+  Measure(app, "standing, all of it", 60, [](int) {});
+  Measure(app, "panning, all of it", 120, [&](int i) { view.Go({i < 60 ? 2.0 : -2.0, 1.0}); });
+  nodes::ShowAll(app.work());
+  Measure(app, "zooming in and out", 240, [&](int i) { view.Zoom(i < 120 ? 1.04 : 1.0 / 1.04, {400.0, 300.0}); });
   view.metres_per_px = 0.1;
-  Measure(desk, "panning, pixel by pixel", 240, [&](int i) { view.Go({i < 120 ? 3.0 : -3.0, 1.0}); });
-  nodes::ShowAll(desk.work());
-  auto& session = desk.work().session;
-  Measure(desk, "a handle dragged, all of it", 60, [&](int i) {
+  Measure(app, "panning, pixel by pixel", 240, [&](int i) { view.Go({i < 120 ? 3.0 : -3.0, 1.0}); });
+  nodes::ShowAll(app.work());
+  auto& session = app.work().session;
+  Measure(app, "a handle dragged, all of it", 60, [&](int i) {
     const auto move = [i](editor::Document& document) {
       return editor::MoveHandles(document, {{1000, 0}}, {0.01 * (i + 1), 0.0});
     };

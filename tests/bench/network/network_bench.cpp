@@ -52,7 +52,8 @@ std::vector<Eigen::Vector3d> OnLanes(const Network& network) {
   return points;
 }
 
-void Ask(benchmark::State& state, const Network& network, const std::vector<Eigen::Vector3d>& points, bool hinted) {
+void QueryAll(benchmark::State& state, const Network& network, const std::vector<Eigen::Vector3d>& points,
+              bool hinted) {
   std::size_t i = 0;
   Hint hint;
   for (auto _ : state) {
@@ -64,7 +65,7 @@ void Ask(benchmark::State& state, const Network& network, const std::vector<Eige
 void Town04Cold(benchmark::State& state) {
   const auto network = Towns(static_cast<int>(state.range(0)));
   if (network == nullptr) return state.SkipWithError("no Town04");
-  Ask(state, *network, OnLanes(*network), false);
+  QueryAll(state, *network, OnLanes(*network), false);
 }
 BENCHMARK(Town04Cold)->Arg(1)->Arg(10);
 
@@ -72,7 +73,7 @@ BENCHMARK(Town04Cold)->Arg(1)->Arg(10);
 void Town04OneOfTen(benchmark::State& state) {
   const auto town = Towns(1), ten = Towns(10);
   if (town == nullptr) return state.SkipWithError("no Town04");
-  Ask(state, *ten, OnLanes(*town), false);
+  QueryAll(state, *ten, OnLanes(*town), false);
 }
 BENCHMARK(Town04OneOfTen);
 
@@ -85,7 +86,7 @@ void Town04Beside(benchmark::State& state) {
     points[i] +=
         Eigen::Vector3d(base::RandomUniform({i, 3}, -30.0, 30.0), base::RandomUniform({i, 4}, -30.0, 30.0), 0.0);
   }
-  Ask(state, *network, points, false);
+  QueryAll(state, *network, points, false);
 }
 BENCHMARK(Town04Beside)->Arg(1)->Arg(10);
 
@@ -102,7 +103,7 @@ void Town04Hinted(benchmark::State& state) {
     for (double s = section.s_m; s < section.end_s_m && points.size() < kPoints; s += 0.02)
       points.push_back(network->Centre(key, s));
   }
-  Ask(state, *network, points, true);
+  QueryAll(state, *network, points, true);
 }
 BENCHMARK(Town04Hinted)->Arg(1)->Arg(10);
 
@@ -125,7 +126,7 @@ void Town04Cars(benchmark::State& state) {
     points.push_back(network->Centre(key, s));
     s = s + 0.2 < section.end_s_m ? s + 0.2 : section.s_m;
   }
-  Ask(state, *network, points, false);
+  QueryAll(state, *network, points, false);
 }
 BENCHMARK(Town04Cars)->Arg(1)->Arg(10);
 

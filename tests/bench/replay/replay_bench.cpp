@@ -83,22 +83,22 @@ std::filesystem::path HourFile() {
 }
 
 void MakeHour() {
-  replay::MadeRecording wish;
-  wish.launch_text = kLaunch;
-  wish.last_step = kHour;
-  wish.payload = Payload;
+  replay::MadeRecording spec;
+  spec.launch_text = kLaunch;
+  spec.last_step = kHour;
+  spec.payload = Payload;
   const char* real = std::getenv("RODEIRA_RECORDING");
-  if (real == nullptr) return replay::Make(wish, HourFile());
+  if (real == nullptr) return replay::Make(spec, HourFile());
   // Its own sources by the roster of the small launch text: cars and traffic are what is looked at.
   const auto run = replay::Must(replay::RecordedRun::Open(real));
   const auto loop = std::make_shared<Loop>(run);
   std::map<std::string, lockstep::SourceIndex> of_topic;
   for (lockstep::SourceIndex s = 0; s < run.roster().sources().size(); ++s) of_topic[run.roster().source(s).topic] = s;
-  wish.payload = [loop, of_topic](const lockstep::Source& source, Step step) {
+  spec.payload = [loop, of_topic](const lockstep::Source& source, Step step) {
     const auto known = of_topic.find(source.topic);
     return known == of_topic.end() ? Payload(source, step) : loop->At(known->second, source, step);
   };
-  replay::Make(wish, HourFile());
+  replay::Make(spec, HourFile());
 }
 
 struct Hour {

@@ -42,8 +42,8 @@ std::vector<ground::GroundQuery> OnRoad(const World& world, double from_t_m, dou
   return queries;
 }
 
-void Ask(benchmark::State& state, ground::Ground& ground, const std::vector<ground::GroundQuery>& queries,
-         std::size_t batch) {
+void QueryAll(benchmark::State& state, ground::Ground& ground, const std::vector<ground::GroundQuery>& queries,
+              std::size_t batch) {
   std::vector<ground::GroundPoint> points(batch);
   std::size_t at = 0;
   for (auto _ : state) {
@@ -68,7 +68,7 @@ void TerrainAloneRandom(benchmark::State& state) {
   std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < kPoints; ++i)
     queries.push_back({base::RandomUniform({i, 1}, 0.0, edge), base::RandomUniform({i, 2}, 0.0, edge)});
-  Ask(state, *World::Make(spec)->MakeGround(), queries, 64);
+  QueryAll(state, *World::Make(spec)->MakeGround(), queries, 64);
 }
 BENCHMARK(TerrainAloneRandom)->Arg(513)->Arg(8193);
 
@@ -202,24 +202,24 @@ void N222TerrainRandom(benchmark::State& state) {
   std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < kPoints; ++i)
     queries.push_back({base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)});
-  Ask(state, *N222()->MakeGround(), queries, 64);
+  QueryAll(state, *N222()->MakeGround(), queries, 64);
 }
 BENCHMARK(N222TerrainRandom);
 
 void N222RoadRandom(benchmark::State& state) {
   const auto world = N222();
-  Ask(state, *world->MakeGround(), OnRoad(*world, -3.4, 3.4), 64);
+  QueryAll(state, *world->MakeGround(), OnRoad(*world, -3.4, 3.4), 64);
 }
 BENCHMARK(N222RoadRandom);
 
 // Of version 2: cuts and fills. Of version 1: where road and terrain are blended.
 void N222SlopesRandom(benchmark::State& state) {
   const auto world = N222();
-  Ask(state, *world->MakeGround(), OnRoad(*world, 4.7, 13.0), 64);
+  QueryAll(state, *world->MakeGround(), OnRoad(*world, 4.7, 13.0), 64);
 }
 BENCHMARK(N222SlopesRandom);
 void N222OfVersion1BlendRandom(benchmark::State& state) {
-  Ask(state, *N222OfVersion1()->MakeGround(), OnRoad(*N222OfVersion1(), 4.7, 13.0), 64);
+  QueryAll(state, *N222OfVersion1()->MakeGround(), OnRoad(*N222OfVersion1(), 4.7, 13.0), 64);
 }
 BENCHMARK(N222OfVersion1BlendRandom);
 
@@ -233,7 +233,7 @@ void N222FourWheels(benchmark::State& state) {
       queries.push_back({p.x(), p.y(), p.z()});
     }
   }
-  Ask(state, *world->MakeGround(), queries, 4);
+  QueryAll(state, *world->MakeGround(), queries, 4);
 }
 BENCHMARK(N222FourWheels);
 

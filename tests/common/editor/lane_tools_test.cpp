@@ -55,7 +55,7 @@ TEST(LaneTools, ALaneAlongABendKeepsItsWidth) {
   }
 }
 
-TEST(LaneTools, LanesBesideShareTheBorderAndAreDrivenAsWished) {
+TEST(LaneTools, LanesBesideShareTheBorderAndTheDrivenDirection) {
   for (const bool on_left : {true, false}) {
     for (const bool same_way : {true, false}) {
       History history(EmptyDocument());

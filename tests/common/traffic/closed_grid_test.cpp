@@ -21,8 +21,8 @@ namespace rodeira::traffic {
 namespace {
 
 std::uint64_t Count(const char* variable, std::uint64_t default_value) {
-  const char* wish = std::getenv(variable);
-  return wish == nullptr ? default_value : std::strtoull(wish, nullptr, 10);
+  const char* text = std::getenv(variable);
+  return text == nullptr ? default_value : std::strtoull(text, nullptr, 10);
 }
 
 struct Town {
@@ -53,7 +53,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
   town.result =
       RunStudy(settings, lanes::ClosedGrid::Make(count), [&](const StudyMoment& moment) {
         if (!exits) exits.emplace(moment.model.graph(), moment.model.vehicles(), kLook_s);
-        if (std::fabs(std::remainder(moment.time_s, kLook_s)) < 1e-6) exits->Look(moment.model);
+        if (std::fabs(std::remainder(moment.time_s, kLook_s)) < 1e-6) exits->Observe(moment.model);
         double driven_m = 0.0;
         for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id) driven_m += moment.model.agent(id).driven_m;
         if (std::fabs(std::remainder(moment.time_s, 60.0)) < 1e-6 && moment.time_s > 1.0) {
@@ -67,7 +67,8 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
   town.driven_m = {until_m[0], until_m[1] - until_m[0], until_m[2] - until_m[1]};
   for (const std::string& incident : town.result.incidents) town.told += "\n  " + incident;
   // One that comes to rest within a step goes v²/(2 a), up to a dt²/8 less than the mean of both speeds says.
-  EXPECT_LT(town.result.worst_step_m, 1e-3 + town.result.hardest_mps2 * settings.step_s * settings.step_s / 8.0)
+  EXPECT_LT(town.result.worst_step_m,
+            1e-3 + town.result.max_deceleration_mps2 * settings.step_s * settings.step_s / 8.0)
       << town.told;
   EXPECT_EQ(town.result.collisions, 0) << town.told;
   EXPECT_EQ(town.result.off_lane, 0) << town.told;

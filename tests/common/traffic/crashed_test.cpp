@@ -26,18 +26,18 @@ TEST(Crashed, SlidesAsFarAsFrictionSays) {
   for (const double v : {1.0, 5.0, 20.0}) {
     for (const double way_rad : {0.0, 0.7, 2.9}) {
       const AgentTraits traits = Saloon();
-      Crashed struck;
-      struck.heading_rad = 0.4;
-      struck.p_W = {10.0, -3.0};
+      Crashed crashed;
+      crashed.heading_rad = 0.4;
+      crashed.p_W = {10.0, -3.0};
       const Eigen::Vector2d way(std::cos(way_rad), std::sin(way_rad));
-      struck.Push(traits, v * traits.mass_kg * way, struck.p_W);
-      EXPECT_NEAR((struck.v_W - v * way).norm(), 0.0, 1e-12);
+      crashed.Push(traits, v * traits.mass_kg * way, crashed.p_W);
+      EXPECT_NEAR((crashed.v_W - v * way).norm(), 0.0, 1e-12);
       double time = 0.0;
-      for (; !struck.at_rest() && time < 60.0; time += 0.01) struck.Slide(traits, kMu, 0.01);
+      for (; !crashed.at_rest() && time < 60.0; time += 0.01) crashed.Slide(traits, kMu, 0.01);
       EXPECT_NEAR(time, v / (kMu * kGravity_mps2), 0.011);
-      EXPECT_NEAR((struck.p_W - Eigen::Vector2d(10.0, -3.0)).dot(way), v * v / (2.0 * kMu * kGravity_mps2),
+      EXPECT_NEAR((crashed.p_W - Eigen::Vector2d(10.0, -3.0)).dot(way), v * v / (2.0 * kMu * kGravity_mps2),
                   1e-3 * v + 1e-4);
-      EXPECT_NEAR(struck.heading_rad, 0.4, 1e-9);
+      EXPECT_NEAR(crashed.heading_rad, 0.4, 1e-9);
     }
   }
 }
@@ -47,18 +47,18 @@ TEST(Crashed, SlidesAsFarAsFrictionSays) {
 TEST(Crashed, SpinsAsLongAsFrictionSays) {
   const AgentTraits traits = Saloon();
   const double inertia = traits.mass_kg * (4.5 * 4.5 + 1.8 * 1.8) / 12.0, R = std::hypot(1.35, 0.9);
-  Crashed struck;
-  struck.Push(traits, {0.0, 3000.0}, {1.0, 0.0});
-  struck.Push(traits, {0.0, -3000.0}, {-1.0, 0.0});
+  Crashed crashed;
+  crashed.Push(traits, {0.0, 3000.0}, {1.0, 0.0});
+  crashed.Push(traits, {0.0, -3000.0}, {-1.0, 0.0});
   const double rate = 6000.0 / inertia;
-  EXPECT_NEAR(struck.yaw_rate_radps, rate, 1e-12);
-  EXPECT_NEAR(struck.v_W.norm(), 0.0, 1e-12);
+  EXPECT_NEAR(crashed.yaw_rate_radps, rate, 1e-12);
+  EXPECT_NEAR(crashed.v_W.norm(), 0.0, 1e-12);
   const double slows = traits.mass_kg * kMu * kGravity_mps2 * R / inertia;
   double time = 0.0;
-  for (; !struck.at_rest() && time < 60.0; time += 0.01) struck.Slide(traits, kMu, 0.01);
+  for (; !crashed.at_rest() && time < 60.0; time += 0.01) crashed.Slide(traits, kMu, 0.01);
   EXPECT_NEAR(time, rate / slows, 0.011);
-  EXPECT_NEAR(struck.heading_rad, rate * rate / (2.0 * slows), 0.002 * rate);
-  EXPECT_NEAR(struck.p_W.norm(), 0.0, 1e-6);
+  EXPECT_NEAR(crashed.heading_rad, rate * rate / (2.0 * slows), 0.002 * rate);
+  EXPECT_NEAR(crashed.p_W.norm(), 0.0, 1e-6);
 }
 
 // A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; none is lost, and a
@@ -82,7 +82,7 @@ void StaysAnObstacle(Physics physics) {
   model.Strike(id, 1.0 * mass * left - 2.0 * mass * ahead, before.p_WB_W.head<2>());
   ASSERT_TRUE(model.agent(id).is_crashed);
   const Eigen::Vector2d expected = (before.speed_mps - 2.0) * ahead + 1.0 * left;
-  EXPECT_NEAR((model.agent(id).struck.v_W - expected).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((model.agent(id).crashed.v_W - expected).norm(), 0.0, 1e-9);
   base::StateWriter writer;
   model.Save(writer);
   TrafficModel again = TrafficModel::Make(settings, Ring(ring_m), {}).value();

@@ -143,7 +143,7 @@ TEST(Decisions, HitNothingAndPassNoRed) {
       EXPECT_EQ(result.reds, 0) << map << ", " << decide_s;
       EXPECT_EQ(result.wheels_off, 0) << map << ", " << decide_s;
       if (decide_s <= 0.1) {
-        EXPECT_LT(result.hardest_mps2, 4.0) << map << ", " << decide_s;
+        EXPECT_LT(result.max_deceleration_mps2, 4.0) << map << ", " << decide_s;
       }
       driven_km[decide_s] += result.driven_km;
     }

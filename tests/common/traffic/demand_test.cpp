@@ -189,7 +189,7 @@ TEST(Demand, LanesAreChangedForARoute) {
   EXPECT_LT(wrong, 0.03 * (right + wrong));
   EXPECT_EQ(r.collisions, 0);
   EXPECT_EQ(r.off_lane, 0);
-  EXPECT_LE(r.hardest_mps2, 3.0) << (r.incidents.empty() ? "" : r.incidents.front());
+  EXPECT_LE(r.max_deceleration_mps2, 3.0) << (r.incidents.empty() ? "" : r.incidents.front());
 }
 
 // Every kind as often as the mix says, within four deviations, each with its own size; lorries obey their own limit.
@@ -225,7 +225,7 @@ TEST(Demand, LongVehiclesDriveTheMaps) {
     for (const std::string& incident : r.incidents) told += "\n  " + incident;
     EXPECT_EQ(r.collisions, 0) << map << told;
     EXPECT_EQ(r.off_lane, 0) << map << told;
-    EXPECT_LE(r.hardest_mps2, 3.0) << map << told;
+    EXPECT_LE(r.max_deceleration_mps2, 3.0) << map << told;
     EXPECT_GT(r.arrivals, 10) << map;
   }
 }

@@ -51,17 +51,17 @@ struct Car {
   double goes_from_s = -1e9;  // when it last drove on
 
   driver::Footprint At() const { return {9999, x_m, y_m, heading_rad, speed_mps, kCarLength_m, 1.8}; }
-  void Drive(double wish_mps, double rate_mps2) {
-    speed_mps += std::clamp(wish_mps - speed_mps, -rate_mps2 * kStep_s, rate_mps2 * kStep_s);
+  void Drive(double desired_mps, double rate_mps2) {
+    speed_mps += std::clamp(desired_mps - speed_mps, -rate_mps2 * kStep_s, rate_mps2 * kStep_s);
     x_m += std::cos(heading_rad) * speed_mps * kStep_s, y_m += std::sin(heading_rad) * speed_mps * kStep_s;
   }
   // Not into a vehicle beside it.
-  void GoOver(double y_m_wished, double rate_mps, const TrafficModel& model) {
+  void GoOver(double target_y_m, double rate_mps, const TrafficModel& model) {
     for (const AgentPose& pose : model.poses()) {
-      if (std::fabs(pose.p_WB_W.x() - x_m) < kCutsIn_m && std::fabs(pose.p_WB_W.y() - y_m_wished) < 0.5 * kLane_m)
+      if (std::fabs(pose.p_WB_W.x() - x_m) < kCutsIn_m && std::fabs(pose.p_WB_W.y() - target_y_m) < 0.5 * kLane_m)
         return;
     }
-    y_m += std::clamp(y_m_wished - y_m, -rate_mps * kStep_s, rate_mps * kStep_s);
+    y_m += std::clamp(target_y_m - y_m, -rate_mps * kStep_s, rate_mps * kStep_s);
   }
 };
 
@@ -130,14 +130,14 @@ const Way kWaysOnOneLane[] = {
 // so long.
 template <int kNear_m, int kGoes_s>
 void StandsAgain(Car& car, double t_s, const TrafficModel& model) {
-  constexpr double kOut_m = 0.5, kStep_m = 4.0, kWish_mps = 4.0, kStandsFor_s = 8.0;
+  constexpr double kOut_m = 0.5, kStep_m = 4.0, kDesired_mps = 4.0, kStandsFor_s = 8.0;
   for (const AgentPose& pose : model.poses()) {
     const double behind = car.x_m - pose.p_WB_W.x(), aside = pose.p_WB_W.y() - kInner_y;
     if (behind > kNear_m - kStep_m && behind < kNear_m && aside > kOut_m &&
         (pose.q_WB * Eigen::Vector3d::UnitX()).x() > 0.0 && t_s > car.goes_from_s + kGoes_s + kStandsFor_s)
       car.goes_from_s = t_s;
   }
-  car.Drive(t_s > car.goes_from_s + kGoes_s || Room(car, model) < 8.0 ? 0.0 : kWish_mps, 4.0);
+  car.Drive(t_s > car.goes_from_s + kGoes_s || Room(car, model) < 8.0 ? 0.0 : kDesired_mps, 4.0);
 }
 
 const Way kWaysOfStandingAgain[] = {
@@ -169,7 +169,7 @@ class Watch {
   int contacts = 0;
   double longest_wait_s = 0.0;  // of a vehicle that may go on, or round
 
-  void Look(const TrafficModel& model, const Car* car, double t_s) {
+  void Observe(const TrafficModel& model, const Car* car, double t_s) {
     const auto& poses = model.poses();
     std::vector<driver::Footprint> bodies;
     for (const AgentPose& pose : poses) bodies.push_back(FootprintOf(pose, model.traits(pose.id)));
@@ -180,7 +180,7 @@ class Watch {
       if (moved || (car != nullptr && IsShutIn(bodies, i, *car))) seen.since_s = t_s;
       longest_wait_s = std::max(longest_wait_s, t_s - seen.since_s);
       // A car that drives into a vehicle at rest, or from behind, cannot be avoided.
-      if (car != nullptr && moved && Ahead(bodies[i], car->At()) > 0.0)
+      if (car != nullptr && moved && DistanceAhead(bodies[i], car->At()) > 0.0)
         contacts += driver::Overlap(bodies[i], car->At()) ? 1 : 0;
       for (std::size_t k = i + 1; k < bodies.size(); ++k) contacts += driver::Overlap(bodies[i], bodies[k]) ? 1 : 0;
     }
@@ -192,7 +192,7 @@ class Watch {
     double since_s = 0.0;
   };
 
-  static double Ahead(const driver::Footprint& one, const driver::Footprint& other) {
+  static double DistanceAhead(const driver::Footprint& one, const driver::Footprint& other) {
     return (other.x_m - one.x_m) * std::cos(one.heading_rad);
   }
   // The driver's car is the next body on its lane, and so near that no path with the radius of a car leads round it.
@@ -200,10 +200,10 @@ class Watch {
     const driver::Footprint &own = bodies[i], other = car.At();
     const double reach = 0.5 * (std::fabs(std::cos(other.heading_rad)) * other.length_m +
                                 std::fabs(std::sin(other.heading_rad)) * other.width_m);
-    const double room = Ahead(own, other) - reach - 0.5 * own.length_m;
+    const double room = DistanceAhead(own, other) - reach - 0.5 * own.length_m;
     return room > 0.0 && room < kShutIn_m && std::fabs(own.y_m - other.y_m) < kLane_m &&
            std::none_of(bodies.begin(), bodies.end(), [&](const driver::Footprint& between) {
-             return &between != &own && Ahead(own, between) > 0.0 && Ahead(between, other) > 0.0 &&
+             return &between != &own && DistanceAhead(own, between) > 0.0 && DistanceAhead(between, other) > 0.0 &&
                     std::fabs(own.y_m - between.y_m) < 0.5 * kLane_m;
            });
   }
@@ -236,7 +236,7 @@ void DriveAmongTraffic(const Way& way, int lanes, std::uint64_t leave, double wa
       std::vector<driver::Footprint> others;
       if (there) others.push_back(car.At()), way.drives(car, t, model);
       model.Step(kStep_s, others);
-      watch.Look(model, there ? &car : nullptr, t);
+      watch.Observe(model, there ? &car : nullptr, t);
     }
     EXPECT_EQ(watch.contacts, 0) << seed;
     EXPECT_LT(watch.longest_wait_s, waits_s) << seed;

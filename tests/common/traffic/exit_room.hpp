@@ -26,7 +26,7 @@ class ExitRoom {
   }
 
   // Every look_s.
-  void Look(const TrafficModel& model) {
+  void Observe(const TrafficModel& model) {
     std::vector<std::int64_t> on(cars_.size(), -1);
     std::vector<double> at(cars_.size(), 0.0);
     std::map<std::uint32_t, double> farthest;  // middle of the first on a street

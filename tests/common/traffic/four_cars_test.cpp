@@ -42,7 +42,7 @@ struct Meeting {
 struct Outcome {
   std::array<double, 4> out_s{};  // when each has left the crossing; -1: not within two minutes
   std::array<std::vector<std::pair<double, double>>, 4> ways;  // seconds, and metres that each has driven
-  double hardest_mps2 = 0.0;
+  double max_deceleration_mps2 = 0.0;
   bool touched = false;
 };
 
@@ -93,7 +93,7 @@ class FourCars : public testing::Test {
       for (const AgentPose& pose : model_->poses()) {
         const Agent& agent = model_->agent(pose.id);
         if (left[pose.id] || agent.trip != TripFor(pose.id, meeting.turn[pose.id])) continue;
-        outcome.hardest_mps2 = std::max(outcome.hardest_mps2, -pose.acceleration_mps2);
+        outcome.max_deceleration_mps2 = std::max(outcome.max_deceleration_mps2, -pose.acceleration_mps2);
         outcome.ways[pose.id].emplace_back(i * step_s, agent.driven_m);
         const double out_m = agent.path.back().begin_m + 0.5 * model_->traits(pose.id).length_m;
         if (agent.links == 2 && agent.o_m > out_m) {  // between two steps by the speed
@@ -132,8 +132,8 @@ class FourCars : public testing::Test {
       for (std::size_t id = 0; id < 4; ++id)
         told += " " + std::to_string(meeting.turn[id]) + "/" + std::to_string(meeting.later_s[id]);
       EXPECT_FALSE(outcome.touched) << told;
-      EXPECT_LE(outcome.hardest_mps2, 4.5) << told;
-      hardest_mps2_ = std::max(hardest_mps2_, outcome.hardest_mps2);
+      EXPECT_LE(outcome.max_deceleration_mps2, 4.5) << told;
+      max_deceleration_mps2_ = std::max(max_deceleration_mps2_, outcome.max_deceleration_mps2);
       Course course;
       for (std::uint32_t id = 0; id < 4; ++id) {
         EXPECT_GT(outcome.out_s[id], 0.0) << told;
@@ -153,7 +153,7 @@ class FourCars : public testing::Test {
   std::shared_ptr<const network::Network> network_;
   std::unique_ptr<TrafficModel> model_;
   std::vector<std::uint32_t> arms_;
-  double hardest_mps2_ = 0.0, last_s_ = 0.0;
+  double max_deceleration_mps2_ = 0.0, last_s_ = 0.0;
 };
 
 double MeanDelay(const std::vector<Course>& courses) {
@@ -211,7 +211,7 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
         << step_s;
     EXPECT_LE(share(0.95), step_s);
   }
-  RecordProperty("hardest_mps2", std::to_string(hardest_mps2_));
+  RecordProperty("max_deceleration_mps2", std::to_string(max_deceleration_mps2_));
   RecordProperty("last_s", std::to_string(last_s_));
 }
 

@@ -144,7 +144,7 @@ TEST(FullDrive, SlowOnesAreOvertaken) {
   RingWatch watch;
   for (int i = 0; i < 15000; ++i) {
     model.Step(0.01, {});
-    if (i % 2 == 0) watch.Look(model, i * 0.01);
+    if (i % 2 == 0) watch.Observe(model, i * 0.01);
   }
   EXPECT_TRUE(watch.touches.empty());
   EXPECT_GE(watch.passes, 2);
@@ -175,12 +175,13 @@ void DriveAFile(const std::string& name, const std::vector<RealDrive>& runs) {
     EXPECT_EQ(r.collisions, 0) << what;
     EXPECT_EQ(r.off_lane, 0) << what;
     EXPECT_EQ(r.wheels_off, 0) << what;
-    EXPECT_LT(r.hardest_mps2, run.foot_mps2) << what;
+    EXPECT_LT(r.max_deceleration_mps2, run.foot_mps2) << what;
     EXPECT_GT(r.driven_km, run.least_km) << what;
     testing::Test::RecordProperty(
-        what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.2f} in all, {} steps in an "
-                          "emergency, {:.1f} km",
-                          r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2, r.hurried_steps, r.driven_km));
+        what,
+        fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.2f} in all, {} steps in an "
+                    "emergency, {:.1f} km",
+                    r.max_deceleration_mps2, r.foot_mps2, r.max_deceleration_any_mps2, r.hurried_steps, r.driven_km));
   }
 }
 
@@ -205,7 +206,7 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
   const StudyResult r = RunStudy(settings, opendrive::LoadNetwork(file).value()).value();
   std::string what =
       fmt::format("{:.1f} km, {:.1f} s at rest with room ahead, {} wheels off, {:.2f} m/s² with a foot on the brake",
-                  r.driven_km, r.longest_with_room_s, r.wheels_off, r.hardest_mps2);
+                  r.driven_km, r.longest_with_room_s, r.wheels_off, r.max_deceleration_mps2);
   RecordProperty("drive", what);
   for (const std::string& incident : r.incidents) what += "\n  " + incident;
   EXPECT_EQ(r.collisions, 0) << what;

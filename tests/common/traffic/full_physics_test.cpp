@@ -282,7 +282,7 @@ TEST(FullPhysics, DrivesTheProjectsMaps) {
       const StudyResult r = RunStudy(settings, lanes::MapNetwork(map)).value();
       std::string what = fmt::format("{} seed {}", map, seed);
       RecordProperty(what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.1f} km",
-                                       r.hardest_mps2, r.foot_mps2, r.driven_km));
+                                       r.max_deceleration_mps2, r.foot_mps2, r.driven_km));
       for (const std::string& incident : r.incidents) what += "\n  " + incident;
       EXPECT_EQ(r.collisions, 0) << what;
       EXPECT_EQ(r.off_lane, 0) << what;
@@ -290,7 +290,7 @@ TEST(FullPhysics, DrivesTheProjectsMaps) {
       EXPECT_EQ(r.hurried_steps, 0) << what;
       EXPECT_LT(r.worst_step_m, 1e-3) << what;
       EXPECT_LE(r.foot_mps2, 3.0) << what;
-      EXPECT_LE(r.hardest_mps2, 4.0) << what;
+      EXPECT_LE(r.max_deceleration_mps2, 4.0) << what;
       EXPECT_GT(r.driven_km, 1.0) << what;
     }
   }
@@ -341,7 +341,7 @@ TEST(FullPhysics, LongBodiesDriveTheProjectsMaps) {
     RecordProperty(
         map, fmt::format(
                  "{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, wheels {:.2f} m off in {} looks, {:.1f} km",
-                 r.hardest_mps2, r.foot_mps2, off_m, off, r.driven_km));
+                 r.max_deceleration_mps2, r.foot_mps2, off_m, off, r.driven_km));
     std::string what = map;
     for (const std::string& incident : r.incidents) what += "\n  " + incident;
     EXPECT_EQ(r.collisions, 0) << what;
@@ -349,14 +349,14 @@ TEST(FullPhysics, LongBodiesDriveTheProjectsMaps) {
     EXPECT_EQ(r.hurried_steps, 0) << what;
     EXPECT_LE(off_m, 0.75) << what;
     EXPECT_LE(r.foot_mps2, 4.0) << what;
-    EXPECT_LE(r.hardest_mps2, 4.5) << what;
+    EXPECT_LE(r.max_deceleration_mps2, 4.5) << what;
     EXPECT_GT(r.driven_km, 1.0) << what;
   }
 }
 
 // While it brakes a car is within 0.4 m/s of the speed that its driver's wishes lead to, and what he wishes changes by
 // the planned jerk down to where the foot ends the stop.
-TEST(FullPhysics, WishesChangeByThePlannedJerk) {
+TEST(FullPhysics, DesiredAccelerationChangesByThePlannedJerk) {
   TrafficModel model = TrafficModel::Make(Full(24), lanes::MapNetwork("crossing"), {}).value();
   std::vector<double> before(model.vehicles()), lags;
   std::vector<std::uint32_t> trips(model.vehicles());
@@ -366,16 +366,16 @@ TEST(FullPhysics, WishesChangeByThePlannedJerk) {
     for (const AgentPose& pose : model.poses()) {
       const Agent& agent = model.agent(pose.id);
       const driver::Pedals& foot = model.full()->foot(pose.id);
-      const double change = std::fabs(agent.wish_mps2 - std::exchange(before[pose.id], agent.wish_mps2));
+      const double change = std::fabs(agent.desired_mps2 - std::exchange(before[pose.id], agent.desired_mps2));
       if (std::exchange(trips[pose.id], pose.trip) != pose.trip || i == 0) continue;
       if (foot.holds()) {
-        EXPECT_GE(agent.wish_mps2, 0.0);
+        EXPECT_GE(agent.desired_mps2, 0.0);
         stops += change > 0.0 ? 1 : 0;
         continue;
       }
       EXPECT_LE(change, 3.0 * kStep_s * (1.0 + 1e-6))
           << "car " << pose.id << " at " << i * kStep_s << " s, " << pose.speed_mps << " m/s";
-      if (agent.wish_mps2 < -0.5) lags.push_back(std::fabs(foot.reference_mps() - pose.speed_mps));
+      if (agent.desired_mps2 < -0.5) lags.push_back(std::fabs(foot.reference_mps() - pose.speed_mps));
     }
   }
   EXPECT_GT(stops, 10);

@@ -149,8 +149,8 @@ Intruded Intrude(const std::vector<TrafficModel>& driving, std::uint64_t count, 
 
 // RODEIRA_INTRUSIONS: how many (400; tests/run --endurance traffic takes 10 000).
 std::uint64_t Intrusions() {
-  const char* wish = std::getenv("RODEIRA_INTRUSIONS");
-  return wish == nullptr ? 400 : std::strtoull(wish, nullptr, 10);
+  const char* text = std::getenv("RODEIRA_INTRUSIONS");
+  return text == nullptr ? 400 : std::strtoull(text, nullptr, 10);
 }
 
 // Alone on that road, as fast as `cap_mps` or the driver wishes, ten seconds after it came.

@@ -130,13 +130,13 @@ class RingSeen {
                        : -idm.braking_mps2 * (1.0 - std::pow(v0 / v, 4.0 * idm.acceleration_mps2 / idm.braking_mps2));
     if (leader != nullptr && s < 200.0) {
       const double wanted =
-          idm.standing_gap_m +
+          idm.min_gap_m +
           std::max(0.0, v * idm.time_gap_s +
                             v * (v - leader->speed_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
       a -= idm.acceleration_mps2 * (wanted / s) * (wanted / s);
-      if (s <= 0.0) a = -idm.hardest_mps2;
+      if (s <= 0.0) a = -idm.max_deceleration_mps2;
     }
-    return std::clamp(a, -idm.hardest_mps2, idm.acceleration_mps2);
+    return std::clamp(a, -idm.max_deceleration_mps2, idm.acceleration_mps2);
   }
 
   const TrafficModel& model_;

@@ -143,7 +143,7 @@ int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desi
       const double v = old[n].speed_mps;
       if (n > 0) {
         const double wanted =
-            idm.standing_gap_m +
+            idm.min_gap_m +
             std::max(0.0, v * idm.time_gap_s + v * (v - old[n - 1].speed_mps) /
                                                    (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
         interaction = std::pow(wanted / (old[n - 1].front_m - old[n - 1].length_m - old[n].front_m), 2);

@@ -33,11 +33,11 @@ void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const 
   TrafficModel model = TrafficModel::Make(settings, network, {}).value();
   std::set<std::pair<std::int32_t, std::uint32_t>> seen;
   std::string passed;  // by flow
-  double hardest_mps2 = 0.0;
+  double max_deceleration_mps2 = 0.0;
   for (int i = 1; i * kStep_s < kFor_s; ++i) {
     model.Step(kStep_s, {});
     for (const AgentPose& pose : model.poses()) {
-      hardest_mps2 = std::max(hardest_mps2, -pose.acceleration_mps2);
+      max_deceleration_mps2 = std::max(max_deceleration_mps2, -pose.acceleration_mps2);
       const Agent& agent = model.agent(pose.id);
       if (pose.p_WB_W.x() < kBeyond_m || !seen.insert({agent.flow, agent.arrival}).second) continue;
       if (i * kStep_s > kWarm_s) passed += agent.flow == 0 ? 'l' : 'r';
@@ -49,7 +49,7 @@ void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const 
   EXPECT_GE(others, (passed.size() - 1) * 9 / 10) << passed;
   EXPECT_EQ(passed.find("lll"), std::string::npos) << passed;
   EXPECT_EQ(passed.find("rrr"), std::string::npos) << passed;
-  EXPECT_LE(hardest_mps2, 3.0);
+  EXPECT_LE(max_deceleration_mps2, 3.0);
   testing::Test::RecordProperty("passed_per_h",
                                 std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
 }

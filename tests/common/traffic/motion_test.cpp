@@ -53,7 +53,7 @@ class Feels {
   }
 
   // After every step.
-  void Look(const TrafficModel& model, double time_s) {
+  void Observe(const TrafficModel& model, double time_s) {
     for (const AgentPose& pose : model.poses()) {
       Before& before = before_[pose.id];
       if (before.trip != static_cast<std::int64_t>(pose.trip)) {  // it enters at a constant speed
@@ -106,7 +106,7 @@ TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
       Feels feels(model, step_s);
       for (int i = 1; i * step_s <= 90.0; ++i) {
         model.Step(step_s, {});
-        feels.Look(model, i * step_s);
+        feels.Observe(model, i * step_s);
       }
       EXPECT_LE(feels.planned_mps3, kPlanned_mps3 * kRounding) << name << ", " << step_s << " s: " << feels.worst;
       EXPECT_LE(feels.emergency_mps3, kEmergency_mps3 * kRounding) << name;
@@ -139,7 +139,7 @@ TEST(Motion, AChangeOfGearWithTheThrottleOpenIsPlannedToo) {
         std::vector<int> gears(4, 1);
         for (int i = 1; i * step_s <= 60.0; ++i) {
           model.Step(step_s, {});
-          feels.Look(model, i * step_s);
+          feels.Observe(model, i * step_s);
           for (const AgentPose& pose : model.poses()) {
             const Driving& driving = model.agent(pose.id).driving;
             changes += driving.gear > gears[pose.id] && driving.throttle > 0.98 ? 1 : 0;
@@ -210,7 +210,7 @@ TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
     double hardest = 0.0;
     for (int i = 1; i * step_s < 8.0; ++i) {
       model.Step(step_s, others);
-      feels.Look(model, i * step_s);
+      feels.Observe(model, i * step_s);
       hardest = std::max(hardest, -model.poses()[0].acceleration_mps2);
       ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[0], model.traits(0)), others[0]));
     }

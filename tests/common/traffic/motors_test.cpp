@@ -181,7 +181,7 @@ TEST(Motors, DrivesTheMapsAndItsCollisionsAreCounted) {
 // stays at 0 where the car goes backwards.
 TEST(Motors, TheSpeedHasNoStepsInASlide) {
   constexpr double kStep_s = 0.01, kTyres_mps2 = 1.3 * 9.81;
-  double fastest_aside_mps = 0.0, hardest_mps2 = 0.0;
+  double fastest_aside_mps = 0.0, max_deceleration_mps2 = 0.0;
   for (const std::uint64_t seed : {1, 4}) {
     TrafficSettings settings = AsMotors(15);
     settings.seed = seed;
@@ -203,7 +203,7 @@ TEST(Motors, TheSpeedHasNoStepsInASlide) {
           const double turned = std::fabs(std::remainder(course - last.course_rad, 2.0 * std::numbers::pi));
           ASSERT_LE(std::fabs(pose.speed_mps - last.speed_mps), kTyres_mps2 * kStep_s + v.norm() * turned + 2e-3)
               << "car " << pose.id << " at " << kStep_s * i << " s";
-          hardest_mps2 = std::max(hardest_mps2, -pose.acceleration_mps2);
+          max_deceleration_mps2 = std::max(max_deceleration_mps2, -pose.acceleration_mps2);
         }
         last = {pose.trip, pose.speed_mps, course};
         fastest_aside_mps =
@@ -214,7 +214,7 @@ TEST(Motors, TheSpeedHasNoStepsInASlide) {
   }
   EXPECT_GT(fastest_aside_mps, 3.0);  // a vehicle does slide
   if (std::getenv("RODEIRA_TELL") != nullptr)
-    fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, hardest_mps2);
+    fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, max_deceleration_mps2);
 }
 
 TEST(Motors, ThreadsAndSnapshotsChangeNoBit) {

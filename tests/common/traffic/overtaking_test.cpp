@@ -48,7 +48,7 @@ void PassesInTime(bool left_hand) {
     for (int i = 0; i < 50 * 500; ++i) {
       model.Step(kStep_s, {});
       const std::size_t before = watch.crossings.size();
-      watch.Look(model, i * kStep_s);
+      watch.Observe(model, i * kStep_s);
       for (const AgentPose& pose : model.poses()) {
         const std::uint32_t lights = model.LightsOf(pose);
         const bool over = watch.cars().at(pose.id).aside_m > 0.0;
@@ -86,7 +86,7 @@ TEST(Overtaking, DenseTrafficBothWaysIsSafe) {
     RingWatch watch;
     for (int i = 0; i < 25 * 400; ++i) {
       model.Step(0.04, {});
-      watch.Look(model, i * 0.04);
+      watch.Observe(model, i * 0.04);
     }
     crossings += watch.crossings.size();
     EXPECT_TRUE(watch.touches.empty()) << seed;
@@ -102,7 +102,7 @@ TEST(Overtaking, MarksAndSignsAreKept) {
     RingWatch watch;
     for (int i = 0; i < 20 * 300; ++i) {
       model.Step(0.05, {});
-      watch.Look(model, i * 0.05);
+      watch.Observe(model, i * 0.05);
     }
     return watch;
   };

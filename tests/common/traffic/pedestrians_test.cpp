@@ -27,7 +27,7 @@ using NetworkPointer = std::shared_ptr<const network::Network>;
 // Looks at all pedestrians at one moment.
 class PeopleWatcher {
  public:
-  void Look(const TrafficModel& model, double time_s) {
+  void Observe(const TrafficModel& model, double time_s) {
     const Pedestrians& people = *model.people();
     for (const driver::Footprint& person : people.Footprints()) {
       for (const AgentPose& pose : model.poses()) {
@@ -69,7 +69,7 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   settings.duration_s = Duration();
   PeopleWatcher watcher;
   const auto result =
-      RunStudy(settings, network, [&](const StudyMoment& moment) { watcher.Look(moment.model, moment.time_s); });
+      RunStudy(settings, network, [&](const StudyMoment& moment) { watcher.Observe(moment.model, moment.time_s); });
   ASSERT_TRUE(result.ok()) << name << ": " << result.error().Text();
   const StudyResult& r = result.value();
   std::string told;
@@ -77,14 +77,15 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   EXPECT_EQ(watcher.touched, 0) << name << ": " << watcher.first;
   EXPECT_EQ(r.collisions, 0) << name << told;
   EXPECT_EQ(r.off_lane, 0) << name << told;
-  EXPECT_LE(r.hardest_mps2, 3.0) << name << told;
+  EXPECT_LE(r.max_deceleration_mps2, 3.0) << name << told;
   EXPECT_LT(r.longest_with_room_s, 300.0) << name << " car " << r.longest_with_room_id;
   EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
   EXPECT_GT(watcher.crossed, 0u) << name;
   testing::Test::RecordProperty(
       name,
       fmt::format("crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s",
-                  watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
+                  watcher.crossed, watcher.longest_wait_s, r.max_deceleration_mps2, r.driven_km, r.standing_s,
+                  r.vehicle_s));
 }
 
 TEST(Pedestrians, NoPedestrianIsTouchedOnTheMaps) {
@@ -293,7 +294,7 @@ TEST(Pedestrians, NoPedestrianWaitsForEver) {
   settings.duration_s = 900.0;
   PeopleWatcher watcher;
   const StudyResult r = RunStudy(settings, Street(), [&](const StudyMoment& moment) {
-                          watcher.Look(moment.model, moment.time_s);
+                          watcher.Observe(moment.model, moment.time_s);
                         }).value();
   EXPECT_EQ(watcher.touched, 0) << watcher.first;
   EXPECT_LT(r.longest_stand_s, 120.0);
@@ -330,7 +331,7 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
   for (int i = 0; i < 12000; ++i) {
     const double in_cycle = std::fmod(0.05 * i, 60.0);  // red from 33 s to 4 s of the next one
     model.Step(0.05, {});
-    watcher.Look(model, 0.05 * i);
+    watcher.Observe(model, 0.05 * i);
     const std::uint32_t now = model.people()->counts()[0].let_go;
     EXPECT_TRUE(now == before || in_cycle >= 33.0 - 1e-9 || in_cycle + crossing.length_m / 1.2 <= 4.0) << in_cycle;
     before = now;
@@ -355,7 +356,7 @@ TEST(Pedestrians, APedestrianThatIsHitStays) {
   PeopleWatcher watcher;
   for (int i = 0; i < 1200; ++i) {
     model.Step(0.05, {});
-    watcher.Look(model, 0.05 * i);
+    watcher.Observe(model, 0.05 * i);
   }
   EXPECT_EQ(watcher.touched, 0) << watcher.first;
   EXPECT_EQ(model.people()->Poses()[0].p_W, where);

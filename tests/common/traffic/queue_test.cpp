@@ -75,7 +75,7 @@ Discharged Discharge(double time_gap_s, base::Bytes& standing, double step_s = 0
       double s = 1e9, dv = 0.0;
       if (n > 0) s = cars[n - 1].front_m - cars[n - 1].length_m - cars[n].front_m, dv = v - cars[n - 1].speed_mps;
       const double wanted =
-          idm.standing_gap_m +
+          idm.min_gap_m +
           std::max(0.0, v * idm.time_gap_s + v * dv / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
       rate.push_back(idm.acceleration_mps2 * (1.0 - std::pow(v / kLimit_mps, 4) - std::pow(wanted / s, 2)));
     }

@@ -88,7 +88,7 @@ TEST(Reaction, StopIsLongerByTheSpeedTimesTheReactionTime) {
 // The roots are followed from τ = 0 on.
 double GrowthRate(const driver::IdmSettings& idm, const Equilibrium& at, std::size_t cars, double reaction_s) {
   const double a = idm.acceleration_mps2, s = at.gap_m, v = at.speed_mps, root = 2.0 * std::sqrt(a * idm.braking_mps2);
-  const double wanted = idm.standing_gap_m + v * idm.time_gap_s;
+  const double wanted = idm.min_gap_m + v * idm.time_gap_s;
   const double f_s = 2.0 * a * wanted * wanted / (s * s * s);
   const double f_l = 2.0 * a * wanted / (s * s) * v / root;
   const double f_v = -4.0 * a * std::pow(v, 3) / std::pow(kRingLimit_mps, 4) -

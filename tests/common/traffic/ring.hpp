@@ -60,8 +60,8 @@ inline Equilibrium EquilibriumOf(const TrafficModel& model, const driver::IdmSet
   double low = 0.0, high = kRingLimit_mps;
   for (int i = 0; i < 60; ++i) {
     at.speed_mps = 0.5 * (low + high);
-    const double gap = (idm.standing_gap_m + at.speed_mps * idm.time_gap_s) /
-                       std::sqrt(1.0 - std::pow(at.speed_mps / kRingLimit_mps, 4));
+    const double gap =
+        (idm.min_gap_m + at.speed_mps * idm.time_gap_s) / std::sqrt(1.0 - std::pow(at.speed_mps / kRingLimit_mps, 4));
     (gap < at.gap_m ? low : high) = at.speed_mps;
   }
   return at;

@@ -48,7 +48,7 @@ std::vector<Arm> ArmsOf(const lanes::Graph& graph) {
 }
 
 struct Passed {
-  double circulating_per_h = 0.0, entered_per_h = 0.0, hardest_mps2 = 0.0;
+  double circulating_per_h = 0.0, entered_per_h = 0.0, max_deceleration_mps2 = 0.0;
 };
 
 // Of two arms after each other in turn: the one sends so many past the next, at which so many wish to enter; both leave
@@ -81,7 +81,7 @@ Passed Measure(double circulating_per_h, double entering_per_h, const std::strin
       model.Step(kStep_s, {});
       for (const AgentPose& pose : model.poses()) {
         const Agent& agent = model.agent(pose.id);
-        passed.hardest_mps2 = std::max(passed.hardest_mps2, -pose.acceleration_mps2);
+        passed.max_deceleration_mps2 = std::max(passed.max_deceleration_mps2, -pose.acceleration_mps2);
         if (network->roads()[static_cast<std::size_t>(pose.road)].id() != out ||
             !seen.insert({agent.flow, agent.arrival}).second)
           continue;
@@ -100,12 +100,12 @@ double Handbook(double circulating_per_h) { return 1380.0 * std::exp(-0.00102 * 
 TEST(Roundabout, ItsEntryCarriesWhatTheHandbookSays) {
   PlotCurve measured{"measured on roundabout.motors", "#b03020", {}},
       handbook{"1380 exp(-0.00102 q)", "#1f5f8b", {}, true};
-  for (const double wish : {0.0, 200.0, 400.0, 600.0, 800.0}) {
-    const Passed alone = Measure(wish, 0.0), beside = Measure(wish, 2000.0);
+  for (const double past_per_h : {0.0, 200.0, 400.0, 600.0, 800.0}) {
+    const Passed alone = Measure(past_per_h, 0.0), beside = Measure(past_per_h, 2000.0);
     EXPECT_NEAR(beside.circulating_per_h, alone.circulating_per_h, 0.03 * alone.circulating_per_h + 4.0);
     EXPECT_NEAR(beside.entered_per_h, Handbook(beside.circulating_per_h), 0.15 * Handbook(beside.circulating_per_h))
         << beside.circulating_per_h;
-    EXPECT_LE(beside.hardest_mps2, 3.0);
+    EXPECT_LE(beside.max_deceleration_mps2, 3.0);
     measured.points.emplace_back(beside.circulating_per_h, beside.entered_per_h);
     RecordProperty("past_" + std::to_string(std::lround(beside.circulating_per_h)),
                    std::to_string(std::lround(beside.entered_per_h)));
@@ -121,8 +121,8 @@ TEST(Roundabout, TableOfItsEntry) {
   if (std::getenv("RODEIRA_ROUNDABOUT") == nullptr)
     GTEST_SKIP() << "RODEIRA_ROUNDABOUT=1 measures and prints the table";
   for (const std::string drivers : {"brisk", ""}) {
-    for (const double wish : {0.0, 200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0}) {
-      const Passed passed = Measure(wish, 2000.0, drivers);
+    for (const double past_per_h : {0.0, 200.0, 400.0, 600.0, 800.0, 1000.0, 1200.0}) {
+      const Passed passed = Measure(past_per_h, 2000.0, drivers);
       const double handbook = Handbook(passed.circulating_per_h);
       std::printf("%s: %.0f circulate, %.0f enter, by the handbook %.0f: %+.0f %%\n",
                   drivers.empty() ? "usual drivers" : drivers.c_str(), passed.circulating_per_h, passed.entered_per_h,

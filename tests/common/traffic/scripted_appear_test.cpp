@@ -108,7 +108,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   const auto gap = [&](std::uint32_t other) {
     return std::fabs(along(other) - 503.0) - 0.5 * (own.length_m + model.traits(other).length_m);
   };
-  const auto clear = [&] { return gap(0) > own.idm.standing_gap_m && gap(2) > own.idm.standing_gap_m; };
+  const auto clear = [&] { return gap(0) > own.idm.min_gap_m && gap(2) > own.idm.min_gap_m; };
   const auto brakes_mps2 = [&] {
     return along(2) > 503.0
                ? 0.0

@@ -44,8 +44,8 @@ TEST(Scripted, ACommandedVehicleOvertakesAsSoonAsItIsSafe) {
       model.CommandOvertake(1);
       std::optional<int> began;
       for (int i = 0; i < 50 * 90; ++i) {
-        Step(calm), still.Look(calm, i * kStep_s);
-        Step(model), watch.Look(model, i * kStep_s);
+        Step(calm), still.Observe(calm, i * kStep_s);
+        Step(model), watch.Observe(model, i * kStep_s);
         if (!began && model.agent(1).overtaking.active()) began = i;
       }
       EXPECT_EQ(still.passes, 0);
@@ -90,7 +90,7 @@ TEST(Scripted, ToOvertakeIsForgottenByARelease) {
   EXPECT_TRUE(model.agent(1).told_past);
   model.Release(1);
   RingWatch watch;
-  for (int i = 0; i < 50 * 60; ++i) Step(model), watch.Look(model, i * kStep_s);
+  for (int i = 0; i < 50 * 60; ++i) Step(model), watch.Observe(model, i * kStep_s);
   EXPECT_TRUE(watch.crossings.empty());
 }
 
@@ -154,11 +154,11 @@ TEST(Scripted, ACommandedVehicleChangesLanesWhenItIsSafe) {
                          0.5 * (model.traits(0).length_m + model.traits(1).length_m);
       const driver::IdmSettings& idm = model.traits(1).idm;
       if (gap > 0.0)
-        return gap > idm.standing_gap_m &&
+        return gap > idm.min_gap_m &&
                driver::IdmAcceleration(idm, PoseOf(model, 1)->speed_mps, 20.0, gap, PoseOf(model, 0)->speed_mps) > -2.0;
       const double ahead = -gap - model.traits(0).length_m - model.traits(1).length_m;
       const driver::IdmSettings& own = model.traits(0).idm;
-      return ahead > own.standing_gap_m &&
+      return ahead > own.min_gap_m &&
              driver::IdmAcceleration(own, PoseOf(model, 0)->speed_mps, 12.0, ahead, PoseOf(model, 1)->speed_mps) > -2.0;
     };
     int waited = 0;

@@ -40,7 +40,7 @@ std::vector<std::vector<double>> Drawn(const TrafficSettings& settings) {
     drawn[2].push_back(share(traits.idm.braking_mps2, settings.idm.braking_mps2));
     drawn[3].push_back((traits.speed_factor - settings.speed_factor_low) /
                        (settings.speed_factor_high - settings.speed_factor_low));
-    EXPECT_EQ(traits.idm.standing_gap_m, settings.idm.standing_gap_m);
+    EXPECT_EQ(traits.idm.min_gap_m, settings.idm.min_gap_m);
   }
   return drawn;
 }

@@ -51,7 +51,7 @@ class RingWatch {
     double length_s = 0.0;
   };
 
-  void Look(const TrafficModel& model, double time_s) {
+  void Observe(const TrafficModel& model, double time_s) {
     std::map<std::uint32_t, Car> cars;
     for (const AgentPose& pose : model.poses()) cars[pose.id] = CarOf(model, pose);
     for (const auto& [id, car] : cars) {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "common/world/road/world.hpp"
-#include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/nodes/editor/editor_app_fixture.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels beside the map, by mouse and keyboard.
-#include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/nodes/editor/editor_app_fixture.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -132,7 +132,7 @@ TEST_F(ADesk, HeightsFieldByFieldAndTheirProfile) {
   ClickOn(15.0, 1.5);
   ASSERT_EQ(work().session.selection.curves, (std::set<std::int32_t>{1}));
   window::Image flat, hilly;
-  desk_->Frame(0, &flat);
+  app_->Frame(0, &flat);
   Click("height 1");
   const char* heights[] = {"2", "2.5", "-1", "4"};
   for (const char* height : heights) {
@@ -143,7 +143,7 @@ TEST_F(ADesk, HeightsFieldByFieldAndTheirProfile) {
   EXPECT_EQ(document().companion.Of(2), (std::array<double, 4>{}));
   ClickOn(15.0, -20.0);  // away from the fields
   ClickOn(15.0, 1.5);
-  desk_->Frame(0, &hilly);
+  app_->Frame(0, &hilly);
   // The profile is drawn: highest at its right end, 4 m, lowest in between.
   ASSERT_TRUE(work().places.contains("profile"));
   const Eigen::Vector2d middle = work().places["profile"];
@@ -291,18 +291,18 @@ TEST_F(ADesk, TrafficByItsPanel) {
   EXPECT_EQ(work().traffic.vehicles, 5);
   Click("Run");
   ASSERT_TRUE(work().traffic.runs) << Said();
-  for (int i = 0; i < 60; ++i) desk_->Frame(0);
+  for (int i = 0; i < 60; ++i) app_->Frame(0);
   EXPECT_FALSE(work().traffic.heat.empty());
   Click("Run");
   EXPECT_FALSE(work().traffic.runs);
   const double paused_s = work().traffic.preview->time_s();
-  for (int i = 0; i < 10; ++i) desk_->Frame(0);
+  for (int i = 0; i < 10; ++i) app_->Frame(0);
   EXPECT_EQ(work().traffic.preview->time_s(), paused_s);
   window::Image with, without;
-  desk_->Frame(0, &with);
+  app_->Frame(0, &with);
   Click("heat map");
   EXPECT_FALSE(work().heat);
-  desk_->Frame(0, &without);
+  app_->Frame(0, &without);
   EXPECT_NE(with, without);
   Click("Stop");
   EXPECT_FALSE(work().traffic.preview);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is asked before something could be lost, and what becomes of each answer.
-#include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/nodes/editor/editor_app_fixture.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -100,14 +100,14 @@ TEST_F(AQuestion, TheWindowIsClosedAfterTheAnswer) {
 
 TEST_F(AQuestion, TheWindowIsClosedInsteadOfTheChange) {
   Change();
-  desk_->KeepEvery(0.1);
-  for (int i = 0; i < 20; ++i) desk_->Frame(0);
+  app_->KeepEvery(0.1);
+  for (int i = 0; i < 20; ++i) app_->Frame(0);
   CloseTheWindow();
   Show();
   Click("Discard");
   EXPECT_FALSE(open_);
   EXPECT_FALSE(IsSaved());
-  desk_.reset();
+  app_.reset();
   EXPECT_TRUE(editor::Keeper::Make(At("kept")).value().Found().empty()) << "what was given up is not offered again";
 }
 
@@ -216,7 +216,7 @@ TEST_F(WorkLeftBehind, OneIsTakenUpAndTheOthersStay) {
   Press(SDL_SCANCODE_RETURN);
   EXPECT_EQ(work().form, Form::kNone) << "another one would take its place";
   const float taken = document().map.scale.value.value;
-  desk_.reset();
+  app_.reset();
   EXPECT_EQ(editor::Keeper::Make(At("kept")).value().Found().size(), 2u);
   EXPECT_TRUE(taken == 77.0f || taken == 78.0f);
 }

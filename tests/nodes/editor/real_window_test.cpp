@@ -18,7 +18,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
-#include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/nodes/editor/editor_app_fixture.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {
@@ -69,11 +69,11 @@ class Running {
 std::map<std::string, Eigen::Vector2d> PlacesOfTheLaneForm() {
   auto window = window::Window::Open({window::Kind::kOffscreen, 1280, 800, "test"});
   if (!window) return {};
-  EditorApp desk(*window.value(), {}, {});
-  desk.Frame(0);
-  desk.work().Open(Form::kLane);
-  for (int i = 0; i < 4; ++i) desk.Frame(0);
-  return desk.work().places;
+  EditorApp app(*window.value(), {}, {});
+  app.Frame(0);
+  app.work().Open(Form::kLane);
+  for (int i = 0; i < 4; ++i) app.Frame(0);
+  return app.work().places;
 }
 
 class ARealWindow : public testing::Test {

@@ -148,17 +148,17 @@ TEST_F(InTime, APauseFreesTheWheelWithinATenthOfASecondAndItFadesInAfterwards) {
   lockstep::InProcessSettings settings;
   settings.last_step = 3000;
   const double begin_s = Now_s();
-  settings.next_command = [&]() -> std::optional<lockstep::Asked> {
+  settings.next_command = [&]() -> std::optional<lockstep::OperatorCommand> {
     using Kind = lockstep::Command::Kind;
     if (paused_s == 0.0 && Now_s() > begin_s + 1.5) {
-      return lockstep::Asked{{Kind::kPause, 1, 0.0, ""}, [&](const base::Result<std::string>& done) {
-                               if (done.ok()) paused_s = Now_s();
-                             }};
+      return lockstep::OperatorCommand{{Kind::kPause, 1, 0.0, ""}, [&](const base::Result<std::string>& done) {
+                                         if (done.ok()) paused_s = Now_s();
+                                       }};
     }
     if (paused_s > 0.0 && resumed_s == 0.0 && Now_s() > paused_s + 0.5) {
       end_of_effects_s = log_.EndsAt_s();
-      return lockstep::Asked{{Kind::kResume, 1, 0.0, ""},
-                             [&](const base::Result<std::string>&) { resumed_s = Now_s(); }};
+      return lockstep::OperatorCommand{{Kind::kResume, 1, 0.0, ""},
+                                       [&](const base::Result<std::string>&) { resumed_s = Now_s(); }};
     }
     return std::nullopt;
   };

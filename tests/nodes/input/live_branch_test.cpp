@@ -72,21 +72,21 @@ TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {
                                                     "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
                                                     "throttle: {axis: 2, inverted: true}\n");
   const auto parent = ControlsOf(File("parent.mcap"));
-  BranchSpec wish{File("parent.mcap"),
+  BranchSpec spec{File("parent.mcap"),
                   2000,
                   {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
                   4000,
                   File("live.mcap")};
-  wish.pace = 2.0;
+  spec.pace = 2.0;
   // The hand moves a while after the drive has begun: an axis counts from its first move on.
   std::optional<std::chrono::steady_clock::time_point> begun;
-  wish.next_command = [&]() -> std::optional<lockstep::Asked> {
+  spec.next_command = [&]() -> std::optional<lockstep::OperatorCommand> {
     const auto now = std::chrono::steady_clock::now();
     if (!begun) begun = now;
     if (now - *begun > std::chrono::milliseconds(400)) wheel.Axis(0, -16384);
     return std::nullopt;
   };
-  const auto outcome = Branch(wish);
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_THAT(outcome.value().live, ElementsAre("driver"));
   EXPECT_THAT(outcome.value().taken_over, ElementsAre("driver"));
@@ -115,20 +115,20 @@ TEST_F(LiveBranch, StoppedByCtrlCItKeepsWhatThePersonHasDriven) {
   VirtualWheel wheel;
   const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() +
                                                     "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
-  BranchSpec wish{File("parent.mcap"),
+  BranchSpec spec{File("parent.mcap"),
                   1000,
                   {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
                   100'000,
                   File("live.mcap")};
-  wish.pace = 1.0;
+  spec.pace = 1.0;
   bool stop = false;
   int asked = 0;
-  wish.next_command = [&]() -> std::optional<lockstep::Asked> {
+  spec.next_command = [&]() -> std::optional<lockstep::OperatorCommand> {
     stop = ++asked > 20;
     return std::nullopt;
   };
-  wish.stop_requested = [&] { return stop; };
-  const auto outcome = Branch(wish);
+  spec.stop_requested = [&] { return stop; };
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_GT(outcome.value().last_step, 1000);
   EXPECT_LT(outcome.value().last_step, 100'000);

@@ -37,7 +37,7 @@ class Wire final : public dds::Participant {
   explicit Wire(launch::Service& service) : service_(service) {}
   base::Result<std::unique_ptr<dds::Writer>> MakeWriter(std::string_view topic, dds::Delivery) override {
     EXPECT_EQ(topic, idl::topics::kGroundRequest);
-    return std::unique_ptr<dds::Writer>(std::make_unique<Asker>(*this));
+    return std::unique_ptr<dds::Writer>(std::make_unique<Requester>(*this));
   }
   base::Result<std::unique_ptr<dds::Reader>> MakeReader(std::string_view topic, dds::Delivery,
                                                         dds::OnPayload on_payload) override {
@@ -48,8 +48,8 @@ class Wire final : public dds::Participant {
   int asked = 0;
 
  private:
-  struct Asker final : dds::Writer {
-    explicit Asker(Wire& to) : wire(to) {}
+  struct Requester final : dds::Writer {
+    explicit Requester(Wire& to) : wire(to) {}
     base::Status Write(const base::Bytes& payload) override {
       ++wire.asked;
       auto answer = wire.service_.Answer(payload);

@@ -24,7 +24,7 @@ namespace topics = idl::topics;
 
 // The momentum that it has is the one that the driver's car has lost to it, but for what its sliding wheels take
 // meanwhile; then it slides to rest as far as friction says, and stays.
-TEST(StruckCar, TakesTheImpulseOfTheCollisionAndStays) {
+TEST(CrashedCar, TakesTheImpulseOfTheCollisionAndStays) {
   const std::filesystem::path path = std::filesystem::path(SourceDir()) / "tests/data/crash_traffic.yaml";
   auto launch = launch::Launch::Load(path, {{"nodes.recorder.kind", "none"}});
   ASSERT_TRUE(launch.ok()) << launch.error().Text();

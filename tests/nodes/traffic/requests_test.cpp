@@ -67,9 +67,9 @@ TEST(TrafficRequestsOfNodes, TheLaterOneHoldsAndEachIsAnsweredInItsPlace) {
 
 using Requests = std::map<lockstep::Step, std::vector<msg::TrafficRequest>>;  // by the step at which they are valid
 
-class Asker final : public lockstep::Node {
+class Requester final : public lockstep::Node {
  public:
-  explicit Asker(Requests requests) : requests_(std::move(requests)) {}
+  explicit Requester(Requests requests) : requests_(std::move(requests)) {}
   base::Status Initialise(lockstep::Outbox& outbox) override {
     outbox.Put(idl::topics::kTrafficRequests, idl::Encode(msg::TrafficRequests()));
     return {};
@@ -124,7 +124,7 @@ Ran Drive(const Requests& first, const Requests& second, lockstep::Step last) {
   const auto traffic = MakeTrafficNode(context);
   EXPECT_TRUE(traffic.ok()) << (traffic.ok() ? "" : traffic.error().Text());
   if (!traffic) return ran;
-  Asker a(first), b(second);
+  Requester a(first), b(second);
   std::vector<lockstep::Node*> nodes(roster.nodes().size());
   nodes[roster.Find("others")] = traffic.value().get();
   nodes[roster.Find("a")] = &a, nodes[roster.Find("b")] = &b;

@@ -33,8 +33,8 @@ std::string Text(const std::string& world, int vehicles) {
          std::to_string(vehicles) + "}}\n";
 }
 
-template <class Look>
-void Drive(const std::string& text, Step last, const Look& look) {
+template <class Observe>
+void Drive(const std::string& text, Step last, const Observe& look) {
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/signals.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = cli::LocalNodes::Make(launch.value());

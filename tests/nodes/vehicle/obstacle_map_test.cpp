@@ -73,8 +73,8 @@ TEST(ObstacleMap, WhatIsInReachIsNear) {
   }
 }
 
-// On a plane that climbs by a tenth to the east, without any road: a house turned by 90 degrees, a tree, a wall of 12 m
-// and a bush, which gives way.
+// On a plane that climbs by a tenth to the east, without any road: a house turned by 90 degrees, a tree, a wall of
+// 12 m and a bush, which gives way.
 TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   const auto world = road::World::Parse(
       "rodeira: world/2\nname: w\nground: {kind: plane, z_m: 3, slope_x: 0.1}\nobjects:\n  - {type: house, x_m: 50, "
@@ -85,13 +85,13 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const ObstacleMap map(*world.value(), kReach_m);
   ASSERT_EQ(map.all().size(), 4u);  // the wall is two pieces
-  const dynamics::Obstacle& house = map.all()[0];
+  const dynamics::Obstacle& building = map.all()[0];
   EXPECT_EQ(map.NameOf(0), "object0");
-  EXPECT_NEAR((house.centre_W.head<2>() - Eigen::Vector2d(50.0, 20.0)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR(house.centre_W.z() - house.half_m.z(), 8.0 - 1.0, 1e-9);
-  EXPECT_NEAR(house.centre_W.z() + house.half_m.z(), 8.0 + 5.0, 1e-9);
-  EXPECT_NEAR((house.q_WO * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
-  EXPECT_TRUE(house.half_m.x() == 5.0 && house.half_m.y() == 3.0);
+  EXPECT_NEAR((building.centre_W.head<2>() - Eigen::Vector2d(50.0, 20.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(building.centre_W.z() - building.half_m.z(), 8.0 - 1.0, 1e-9);
+  EXPECT_NEAR(building.centre_W.z() + building.half_m.z(), 8.0 + 5.0, 1e-9);
+  EXPECT_NEAR((building.q_WO * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
+  EXPECT_TRUE(building.half_m.x() == 5.0 && building.half_m.y() == 3.0);
   EXPECT_NEAR(map.all()[1].centre_W.z() - map.all()[1].half_m.z(), 3.0 - 3.0 - 1.0, 1e-9);
   double wall_m = 0.0;
   for (std::size_t i = 2; i < 4; ++i) {

@@ -34,7 +34,7 @@ struct Same {
            a.face == b.face && SameBytes(a.on_face, b.on_face) && a.repeats == b.repeats;
   }
   bool operator()(const scene::Stand& a, const scene::Stand& b) const { return a.foot_W == b.foot_W && a.x_W == b.x_W; }
-  bool operator()(const scene::StandingPlace& a, const scene::StandingPlace& b) const {
+  bool operator()(const scene::PlacedCopy& a, const scene::PlacedCopy& b) const {
     return (*this)(a.stand, b.stand) && a.across == b.across && a.up == b.up && a.leaves == b.leaves;
   }
   bool operator()(const scene::Repeated& a, const scene::Repeated& b) const {

@@ -81,11 +81,11 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   EXPECT_TRUE(said.ends_with("broken.osgt: OpenSceneGraph cannot read this model; what it is of is drawn without it\n"))
       << said;
   EXPECT_EQ(said.find(": OpenSceneGraph"), said.rfind(": OpenSceneGraph"));
-  const auto house = RenderStill(*without.value(), picture, 320, 180);
+  const auto building = RenderStill(*without.value(), picture, 320, 180);
   const auto whole = RenderStill(*parsed.value(), picture, 320, 180);
-  ASSERT_TRUE(house.ok() && whole.ok());
-  EXPECT_EQ(seen.value().rgb, house.value().rgb);
-  EXPECT_NE(whole.value().rgb, house.value().rgb);
+  ASSERT_TRUE(building.ok() && whole.ok());
+  EXPECT_EQ(seen.value().rgb, building.value().rgb);
+  EXPECT_NE(whole.value().rgb, building.value().rgb);
 }
 
 // The pager, the files and the look that is put on them against the ground that is built in memory: pixel by pixel.

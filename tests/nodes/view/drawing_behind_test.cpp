@@ -24,7 +24,7 @@ class DrawingBehind : public testing::Test {
     ViewSettings settings;
     settings.width_px = 64;
     settings.height_px = 64;
-    settings.window = WindowWish::kNever;
+    settings.window = WindowMode::kNever;
     settings.frame_steps = {10};
     settings.waits_for_picture = waits;
     settings.frame_log = frame_log;

@@ -24,14 +24,14 @@ class MirrorStill : public DriverStill {
     AddBehind(1, 14.0, 3.5, scene::Colour::Of(0xc01010));   // red, to the left
     AddBehind(2, 14.0, -3.5, scene::Colour::Of(0x1030c0));  // blue, to the right
   }
-  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) {
+  Eigen::Vector3d PointBehind(double behind_m, double left_m, double up_m) {
     return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m);
   }
   void AddBehind(std::uint64_t id, double behind_m, double left_m, scene::Colour colour) {
     scene::AgentPose agent;
     agent.id = id;
     agent.colour = colour;
-    agent.p_WB_W = Behind(behind_m, left_m, 0.0);
+    agent.p_WB_W = PointBehind(behind_m, left_m, 0.0);
     agent.q_WB = Car().q_WB;
     picture_.moment.agents.push_back(agent);
   }
@@ -67,7 +67,7 @@ TEST_F(MirrorStill, LeftIsLeft) {
   const Image image = Drawn();
   // The bonnets of the two, 14 m behind: 2 m before their middles, at 0.75 m.
   const auto bonnet = [&](scene::Mirror mirror, double left_m, bool reversed) {
-    const Eigen::Vector2d at = Seen(Car(), mirror, Behind(12.5, left_m, 0.85), reversed);
+    const Eigen::Vector2d at = Seen(Car(), mirror, PointBehind(12.5, left_m, 0.85), reversed);
     return ProbeAt(image, at.x(), at.y());
   };
   EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, true).IsRed()) << bonnet(scene::Mirror::kInside, 3.5, true);
@@ -115,7 +115,7 @@ TEST_F(MirrorStill, EachOfThreeScreensHasItsOwn) {
     for (const scene::Mirror mirror : scene::kAllMirrors)
       EXPECT_EQ(Differ(seen, none, mirror), mirror == own) << name << ": " << scene::NameOf(mirror);
     const auto bonnet = [&](double left_m) {
-      const Eigen::Vector2d at = Seen(Car(), own, Behind(12.5, left_m, 0.85), true);
+      const Eigen::Vector2d at = Seen(Car(), own, PointBehind(12.5, left_m, 0.85), true);
       return ProbeAt(seen, at.x(), at.y());
     };
     EXPECT_TRUE(own == scene::Mirror::kRight || bonnet(3.5).IsRed()) << name << ": " << bonnet(3.5);

@@ -48,12 +48,12 @@ TEST_F(NoGl, PicturesForFilesWantARenderer) {
 }
 
 TEST_F(NoGl, AWindowThatMustBeWantsADisplay) {
-  settings_.window = WindowWish::kAlways;
+  settings_.window = WindowMode::kAlways;
   EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(2), "no display.*--headless");
 }
 
 TEST_F(NoGl, AWindowThatMayBeIsLeftOut) {
-  settings_.window = WindowWish::kAuto;
+  settings_.window = WindowMode::kAuto;
   EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(0), "nothing is drawn");
 }
 
@@ -72,13 +72,13 @@ class DisplayWithoutGl : public NoGl {
 };
 
 TEST_F(DisplayWithoutGl, AWindowThatMustBeIsRefused) {
-  settings_.window = WindowWish::kAlways;
+  settings_.window = WindowMode::kAlways;
   EXPECT_EXIT(OpenThere(), testing::ExitedWithCode(2),
               "no OpenGL context can be made \\(.+\\); the package libgl1-mesa-dri was expected");
 }
 
 TEST_F(DisplayWithoutGl, AWindowThatMayBeIsLeftOut) {
-  settings_.window = WindowWish::kAuto;
+  settings_.window = WindowMode::kAuto;
   EXPECT_EXIT(OpenThere(), testing::ExitedWithCode(0), "nothing is drawn");
 }
 

@@ -25,7 +25,7 @@ class Reading : public testing::Test {
   void SetUp() override {
     settings_.width_px = 320;
     settings_.height_px = 180;
-    settings_.window = WindowWish::kAlways;
+    settings_.window = WindowMode::kAlways;
     settings_.sound = false;
     if (!display_.there()) GTEST_SKIP() << "the package xvfb is not there";
     auto surface = OpenSurface(SurfaceKind::kWindow, settings_, true);
@@ -104,7 +104,7 @@ TEST(ReadingNothing, WithoutADisplay) {
   ::unsetenv("DISPLAY");
   ::unsetenv("WAYLAND_DISPLAY");
   ViewSettings settings;
-  settings.window = WindowWish::kAlways;
+  settings.window = WindowMode::kAlways;
   bool asked = false;
   const auto render_thread = RenderThread::Open(settings, [&]() -> base::Result<ReadWorld> {
     asked = true;

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "common/core/base/temporary_folder.hpp"
-#include "nodes/view/run_connection/asker.hpp"
+#include "nodes/view/run_connection/live_requester.hpp"
 #include "nodes/view/window/view_window.hpp"
 #include "tests/n222.hpp"
 #include "tests/nodes/view/pictures.hpp"
@@ -182,7 +182,7 @@ TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
 }
 
 // It is said again until the run has said it.
-TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
+TEST(LiveRequester, ARequestIsRepeatedUntilItHasHappened) {
   class Ear final : public launch::LiveRequestsSender {
    public:
     explicit Ear(std::vector<std::vector<launch::LiveRequest>>& heard) : heard_(heard) {}
@@ -192,28 +192,28 @@ TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
     std::vector<std::vector<launch::LiveRequest>>& heard_;
   };
   std::vector<std::vector<launch::LiveRequest>> heard;
-  Asker asker(std::make_unique<Ear>(heard));
-  asker.Tell(0.0);
+  LiveRequester live_requester(std::make_unique<Ear>(heard));
+  live_requester.Tell(0.0);
   EXPECT_TRUE(heard.empty());
   const scenario::Request place = scenario::PlaceRequest({"ego", 0.1, 0.2, 3.0}, 45.0),
                           rain = scenario::WeatherRequest("rain", 8.0);
-  EXPECT_TRUE(asker.Ask(place));
-  EXPECT_TRUE(asker.Ask(rain));
-  EXPECT_FALSE(asker.Ask(scenario::WeatherRequest("hail", 8.0)));
-  for (double now_s = 0.0; now_s < 0.999; now_s += 0.01) asker.Tell(now_s);
+  EXPECT_TRUE(live_requester.Request(place));
+  EXPECT_TRUE(live_requester.Request(rain));
+  EXPECT_FALSE(live_requester.Request(scenario::WeatherRequest("hail", 8.0)));
+  for (double now_s = 0.0; now_s < 0.999; now_s += 0.01) live_requester.Tell(now_s);
   EXPECT_NEAR(static_cast<double>(heard.size()), 20.0, 1.0);
   ASSERT_EQ(heard.back().size(), 2u);
   EXPECT_EQ(heard.back()[0].number, 1u);
   EXPECT_EQ(heard.back()[1].number, 2u);
-  asker.See({scenario::EventOf(place).value(), {"mark", "x", 0.0}});
-  asker.Tell(1.1);
+  live_requester.See({scenario::EventOf(place).value(), {"mark", "x", 0.0}});
+  live_requester.Tell(1.1);
   ASSERT_EQ(heard.back().size(), 1u);
   EXPECT_EQ(heard.back()[0].name, "weather");
-  asker.See({scenario::EventOf(rain).value()});
+  live_requester.See({scenario::EventOf(rain).value()});
   const std::size_t said = heard.size();
-  asker.Tell(2.0);
+  live_requester.Tell(2.0);
   EXPECT_EQ(heard.size(), said);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(asker.Ask(rain), i < 16);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(live_requester.Request(rain), i < 16);
 }
 
 // Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it

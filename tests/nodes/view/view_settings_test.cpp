@@ -37,7 +37,7 @@ TEST(ViewSettings, NothingNeedsToBeSaid) {
   const auto settings = ReadViewSettings(context);
   ASSERT_TRUE(settings.ok()) << settings.error().Text();
   EXPECT_EQ(settings.value().width_px, 1280);
-  EXPECT_EQ(settings.value().window, WindowWish::kAuto);
+  EXPECT_EQ(settings.value().window, WindowMode::kAuto);
   EXPECT_FALSE(settings.value().headset);
   EXPECT_TRUE(settings.value().frame_steps.empty());
 }

@@ -79,7 +79,7 @@ static dds_entity_t Checked(dds_entity_t entity, const char* what) {
 }
 
 // Asks for the height at a point.
-static void Ask(dds_entity_t writer, double x_m, double y_m) {
+static void RequestPlace(dds_entity_t writer, double x_m, double y_m) {
   rodeira_msg_GroundPointQuery point = {.x_m = x_m, .y_m = y_m, .z_hint_m = NAN};
   rodeira_msg_GroundRequest request;
   memset(&request, 0, sizeof(request));
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
   bool is_answered = false;
   int left = kSubjects;
   for (;;) {
-    if (!is_answered) Ask(requests, atof(argv[3]), atof(argv[4]));
+    if (!is_answered) RequestPlace(requests, atof(argv[3]), atof(argv[4]));
     for (int i = 0; i < kSubjects; ++i) {
       if (!Take(&g_subjects[i], &is_answered) || g_subjects[i].is_read) continue;
       g_subjects[i].is_read = true;

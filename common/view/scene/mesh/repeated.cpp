@@ -8,7 +8,7 @@
 namespace rodeira::scene {
 namespace {
 
-void AddAt(const Repeated& repeated, const StandingPlace& place, Mesh& mesh) {
+void AddAt(const Repeated& repeated, const PlacedCopy& place, Mesh& mesh) {
   const Mesh& model = repeated.model;
   const Eigen::Vector3d scale(place.across, place.across, place.up);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -32,7 +32,7 @@ std::vector<Mesh> Merged(std::span<const Repeated> all) {
     Mesh& mesh = merged[repeated.model.material];
     mesh.material = repeated.model.material;
     mesh.origin_W = repeated.origin_W;
-    for (const StandingPlace& place : repeated.places) AddAt(repeated, place, mesh);
+    for (const PlacedCopy& place : repeated.places) AddAt(repeated, place, mesh);
   }
   std::vector<Mesh> meshes;
   for (auto& [material, mesh] : merged) meshes.push_back(std::move(mesh));

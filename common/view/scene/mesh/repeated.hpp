@@ -10,7 +10,7 @@
 namespace rodeira::scene {
 
 // One of the places at which a model stands.
-struct StandingPlace {
+struct PlacedCopy {
   Stand stand;
   double across = 1.0, up = 1.0;  // so many times as wide and as high as the model
   Colour leaves;                  // of what grows
@@ -23,7 +23,7 @@ struct Repeated {
   // has its own colour. Empty: each has.
   std::vector<float> light;
   Eigen::Vector3d origin_W = Eigen::Vector3d::Zero();  // to which places are drawn relative
-  std::vector<StandingPlace> places;
+  std::vector<PlacedCopy> places;
 };
 
 // A leaf's colour: from the dark inside of a crown to its top.

@@ -46,7 +46,7 @@ StaticObjects::StaticObjects(const road::World& world, ModelIsThere is_there) : 
     tiles_[TileAt(0.25 * (piece.right_W[0] + piece.right_W[1] + piece.left_W[0] + piece.left_W[1]).head<2>())]
         .tubes.push_back(piece);
   }
-  if (world.standing() != nullptr) AddStanding(world, *world.standing());
+  if (world.props() != nullptr) AddProps(world, *world.props());
 }
 
 void StaticObjects::Keep(Thing thing) {

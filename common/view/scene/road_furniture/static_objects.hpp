@@ -97,7 +97,7 @@ class StaticObjects {
   void AddOutlines(const network::Road* road, const network::Placed& placed, const Thing& thing);
   void AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing);
   void AddRun(const road::World& world, const network::PlacedRun& run);
-  void AddStanding(const road::World& world, const network::Standing& standing);
+  void AddProps(const road::World& world, const network::Props& props);
   void Keep(Thing thing);
   void KeepRail(const RailPiece& piece);
 
@@ -115,7 +115,7 @@ struct PlacedModel {
 std::vector<PlacedModel> ModelsOf(const StaticObjects::Tile& tile, int level);
 
 // What of a tile's things is drawn once, and what at many places; all with the same origin.
-struct DrawnThings {
+struct DrawnStaticObjects {
   std::vector<Mesh> meshes;
   std::vector<Repeated> repeated;  // trees, posts, lamps …, each at kFewestPlaces or more
 };
@@ -123,6 +123,6 @@ inline constexpr std::size_t kFewestPlaces = 8;
 
 // A tile's things at a level of detail: at level 0 and 1 everything, simpler at 1; at 2 trees,
 // houses and rails as plain as can be; at 3 only houses and what else is large. Tunnels are tubes at all of them.
-DrawnThings DrawThings(const StaticObjects::Tile& tile, const TileKey& key, int level);
+DrawnStaticObjects DrawStaticObjects(const StaticObjects::Tile& tile, const TileKey& key, int level);
 
 }  // namespace rodeira::scene

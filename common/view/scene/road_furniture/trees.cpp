@@ -69,7 +69,7 @@ Repeated TreeModel(TreeKind kind, int level) {
   return tree;
 }
 
-StandingPlace PlaceOf(const Tree& tree) {
+PlacedCopy PlaceOf(const Tree& tree) {
   return {{tree.foot_W, Eigen::Vector2d::UnitX()}, tree.crown_m, tree.height_m, tree.leaves};
 }
 

@@ -26,6 +26,6 @@ TreeKind KindOf(const Tree& tree);
 // on. It stands nowhere yet.
 Repeated TreeModel(TreeKind kind, int level);
 // Where TreeModel's tree of its kind is put, with its size and colour.
-StandingPlace PlaceOf(const Tree& tree);
+PlacedCopy PlaceOf(const Tree& tree);
 
 }  // namespace rodeira::scene

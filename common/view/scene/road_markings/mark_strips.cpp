@@ -15,9 +15,9 @@ constexpr double kMaxStripLength_m = 24.0, kMinStripLength_m = 0.05;
 using Edges = std::array<Eigen::Vector3d, 2>;  // right and left
 
 // Cuts one stroke into pieces.
-class Painter {
+class MarkStripBuilder {
  public:
-  Painter(const network::Road& road, const network::Marking& line, double chord_m, TilePaint& paint)
+  MarkStripBuilder(const network::Road& road, const network::Marking& line, double chord_m, TilePaint& paint)
       : road_(road), line_(line), chord_m_(chord_m), colour_(PaintColour(line.colour)), paint_(paint) {}
 
   void Paint(double from, double to) {
@@ -96,8 +96,8 @@ void AddPaint(const PaintPiece& piece, TilePaint& paint) {
 
 void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint) {
   for (const network::Marking& line : network::MarkingsOf(road)) {
-    Painter painter(road, line, chord_m, paint);
-    for (const network::Stroke& at : network::StrokesOf(road, line)) painter.Paint(at.from_s_m, at.to_s_m);
+    MarkStripBuilder builder(road, line, chord_m, paint);
+    for (const network::Stroke& at : network::StrokesOf(road, line)) builder.Paint(at.from_s_m, at.to_s_m);
   }
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 constexpr double kStem_m = 0.15, kStraightHead_m = 0.45;
 
 // What of a convex polygon lies where sign y <= limit.
-Polygon2 Below(const Polygon2& polygon, double sign, double limit) {
+Polygon2 ClipBelow(const Polygon2& polygon, double sign, double limit) {
   Polygon2 kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
@@ -99,7 +99,7 @@ std::vector<Polygon2> ZebraShape(const Polygon2& outline) {
   const double first = 0.5 * (low + high) - 0.5 * (count * kPeriod_m - kStripeGap_m);
   for (double i = 0.0; i < count; i += 1.0) {
     const double right = first + i * kPeriod_m;
-    Polygon2 stripe = Below(Below(outline, 1.0, right + kStripe_m), -1.0, -right);
+    Polygon2 stripe = ClipBelow(ClipBelow(outline, 1.0, right + kStripe_m), -1.0, -right);
     if (stripe.size() > 2) stripes.push_back(std::move(stripe));
   }
   return stripes;

@@ -27,9 +27,9 @@ TileHeights::TileHeights(const road::World& world, const TilePlan& plan) : world
   FindAims();
   for (std::uint32_t point = 0; point < count; ++point) {
     if (edge_of_[point] != 0)
-      AskOnEdge(point);
+      QueryOnEdge(point);
     else
-      AskInside(point);
+      QueryInside(point);
   }
 }
 
@@ -110,11 +110,11 @@ void TileHeights::FindAims() {
 
 // Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the
 // point has more levels, a face's own are those nearest to its triangle there.
-void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
-  if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_, corner.count);
+void TileHeights::QueryFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
+  if (corner.count == most) return Query(p_W, corner.towards_W, corner.count, heights_, corner.count);
   thread_local std::vector<CornerHeight> all;
   all.clear();
-  Ask(p_W, corner.towards_W, most, all);
+  Query(p_W, corner.towards_W, most, all);
   thread_local std::vector<road::SurfacePoint> within;
   LevelsAt(world_, corner.towards_W, corner.count, within);
   for (std::size_t i = 0; i < corner.count; ++i) {
@@ -136,8 +136,8 @@ std::size_t TileHeights::MostLevels(std::uint32_t point) {
 }
 
 // Adds `count` heights; where there are fewer than `least` levels the next place within is asked.
-void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
-                      std::vector<CornerHeight>& heights, std::size_t least) const {
+void TileHeights::Query(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
+                        std::vector<CornerHeight>& heights, std::size_t least) const {
   thread_local std::vector<road::SurfacePoint> levels;
   LevelsWithin(world_, p_W, towards_W, count, levels, least);
   for (std::size_t i = 0; i < count; ++i) {
@@ -151,14 +151,14 @@ void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards
 }
 
 // Heights at one point that hardly differ become one, the middle of them.
-void TileHeights::AskInside(std::uint32_t point) {
+void TileHeights::QueryInside(std::uint32_t point) {
   const Eigen::Vector2d p_W = ToWorld(plan_.key, plan_.triangles.points()[point]);
   const auto begin = heights_.size();
   const std::size_t most = MostLevels(point);
   ForEachCorner(point, [&](Corner& corner) {
     corner.count = static_cast<std::uint32_t>(plan_.faces[corner.face].levels.size());
     corner.first = static_cast<std::uint32_t>(heights_.size());
-    AskOfFace(p_W, corner, most);
+    QueryFace(p_W, corner, most);
   });
   if (heights_.size() - begin < 2) return;
   thread_local std::vector<CornerHeight*> all;
@@ -175,12 +175,13 @@ void TileHeights::AskInside(std::uint32_t point) {
 }
 
 // Both tiles ask along the sides on their common edge and nothing else; what else meets there is welded to that.
-void TileHeights::AskOnEdge(std::uint32_t point) {
+void TileHeights::QueryOnEdge(std::uint32_t point) {
   const tessellation::GridPoint p = plan_.triangles.points()[point];
   const Eigen::Vector2d p_W = ToWorld(plan_.key, p);
   thread_local std::vector<CornerHeight> sides;
   sides.clear();
-  for (const Eigen::Vector2d& half_W : EdgeOf(point).halves_W) Ask(p_W, IsCorner(p) ? p_W : half_W, kMaxLevels, sides);
+  for (const Eigen::Vector2d& half_W : EdgeOf(point).halves_W)
+    Query(p_W, IsCorner(p) ? p_W : half_W, kMaxLevels, sides);
   thread_local std::vector<CornerHeight*> all;
   all.clear();
   for (CornerHeight& height : sides) all.push_back(&height);
@@ -197,7 +198,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
       heights_.insert(heights_.end(), own, own + static_cast<std::ptrdiff_t>(corner.count));
       return;
     }
-    AskOfFace(p_W, corner, most);
+    QueryFace(p_W, corner, most);
     for (CornerHeight& height : HeightsOf(corner)) {
       for (const CornerHeight* known : all) {
         if (std::fabs(known->z_m - height.z_m) > kWelded_m) continue;

@@ -56,15 +56,15 @@ class TileHeights {
   OnEdge& EdgeOf(std::uint32_t point);
   void FindSides();
   void FindAims();
-  void AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most);
+  void QueryFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most);
   std::size_t MostLevels(std::uint32_t point);  // of the faces there
-  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
-           std::vector<CornerHeight>& heights, std::size_t least = 1) const;
+  void Query(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
+             std::vector<CornerHeight>& heights, std::size_t least = 1) const;
   std::span<CornerHeight> HeightsOf(const Corner& corner) {
     return std::span(heights_).subspan(corner.first, corner.count);
   }
-  void AskInside(std::uint32_t point);
-  void AskOnEdge(std::uint32_t point);
+  void QueryInside(std::uint32_t point);
+  void QueryOnEdge(std::uint32_t point);
 
   const road::World& world_;
   const TilePlan& plan_;

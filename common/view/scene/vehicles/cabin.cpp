@@ -25,7 +25,7 @@ CabinDial DialAt(const Dial& dial, double left_m, double down_m, double radius_m
 
 }  // namespace
 
-Vector3d Facing::ToE(const Vector3d& p) const {
+Vector3d CabinPose::ToE(const Vector3d& p) const {
   const double c = std::cos(leaning_rad), s = std::sin(leaning_rad);
   const Vector3d right(0.0, -1.0, 0.0), up(s, 0.0, c), out(-c, 0.0, s);
   return middle_E + p.x() * right + p.y() * up + p.z() * out;
@@ -43,9 +43,9 @@ Vector3d NeedleEnd_E(const CabinDial& dial, double value) {
   return dial.place.ToE({reach_m * std::cos(angle), reach_m * std::sin(angle), 0.002});
 }
 
-Facing GearPlace() { return {{kInstruments_m - 0.002, 0.0, -0.172}, kInstrumentsLean_rad}; }
+CabinPose GearPlace() { return {{kInstruments_m - 0.002, 0.0, -0.172}, kInstrumentsLean_rad}; }
 
-Facing WheelPlace() { return {{0.40, 0.0, -0.285}, 25.0 * base::kRadiansPerDegree}; }
+CabinPose WheelPlace() { return {{0.40, 0.0, -0.285}, 25.0 * base::kRadiansPerDegree}; }
 
 Vector3d WheelMark_E(double steering_wheel_rad) {
   const double angle = 0.5 * base::kPi + steering_wheel_rad;

@@ -12,7 +12,7 @@
 namespace rodeira::scene {
 
 // A flat thing that faces the driver. Its own frame: x to the driver's right, y up, z towards him.
-struct Facing {
+struct CabinPose {
   Eigen::Vector3d middle_E = Eigen::Vector3d::Zero();
   double leaning_rad = 0.0;  // its upper edge away from the driver
   // A place of the thing, in E.
@@ -22,7 +22,7 @@ struct Facing {
 // An instrument on the dashboard.
 struct CabinDial {
   Dial dial;
-  Facing place;
+  CabinPose place;
   double radius_m = 0.0;
 };
 // The tank is full when a car begins; what is left of it is shown.
@@ -33,11 +33,11 @@ const std::array<CabinDial, 3>& CabinDials();
 // The end of a dial's needle, in E.
 Eigen::Vector3d NeedleEnd_E(const CabinDial& dial, double value);
 // Of the gear's sign, and how high it is.
-Facing GearPlace();
+CabinPose GearPlace();
 inline constexpr double kGearHeight_m = 0.032;
 
 // Of the steering wheel's middle.
-Facing WheelPlace();
+CabinPose WheelPlace();
 inline constexpr double kWheelRadius_m = 0.185;
 // The rim with its white mark, in the wheel's frame with the mark up; turning left is counter-clockwise.
 Mesh BuildSteeringWheel();

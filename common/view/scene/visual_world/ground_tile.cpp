@@ -69,8 +69,8 @@ void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
 // seen.
 Line3 PlacesOf(const road::World& world) {
   Line3 places{{world.start().x_m, world.start().y_m, 0.0}};
-  for (const auto& thing : world.standing()->things) places.emplace_back(thing.at_W.x(), thing.at_W.y(), 0.0);
-  for (const auto& run : world.standing()->runs) {
+  for (const auto& thing : world.props()->placements) places.emplace_back(thing.at_W.x(), thing.at_W.y(), 0.0);
+  for (const auto& run : world.props()->runs) {
     for (const Eigen::Vector2d& p : run.points_W) places.emplace_back(p.x(), p.y(), 0.0);
   }
   return places;
@@ -138,7 +138,7 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     }
   }
   for (const auto& [key, things] : things_.tiles()) tiles.insert(key);
-  if (world.plane() && world.standing() != nullptr) AddReach(PlacesOf(world), tiles);
+  if (world.plane() && world.props() != nullptr) AddReach(PlacesOf(world), tiles);
   if (world.grid() != nullptr) {
     AddRectangle(world.extents(), tiles);
     const Line3 border = BorderOf(world.extents());
@@ -224,7 +224,7 @@ GroundLevel GroundPlan::LevelOf(Begun& begun, int level) const {
       made.marks = LayPaint(paint->second, key, begun.woven.triangles);
   }
   if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
-    DrawnThings drawn = DrawThings(things->second, key, level);
+    DrawnStaticObjects drawn = DrawStaticObjects(things->second, key, level);
     made.things = std::move(drawn.meshes);
     made.repeated = std::move(drawn.repeated);
     made.models = ModelsOf(things->second, level);

@@ -85,8 +85,8 @@ const auto kPassMesh = [](auto& stream, auto& mesh) {
   stream.One(mesh.repeats);
 };
 
-template <class Stream, class Standing>
-void PassStand(Stream& stream, Standing& stand) {
+template <class Stream, class StandOf>
+void PassStand(Stream& stream, StandOf& stand) {
   PassPoint(stream, stand.foot_W);
   PassPoint(stream, stand.x_W);
 }

@@ -220,7 +220,7 @@ TEST(Files, WhatComesThroughAPipeIsReadToItsEnd) {
   ::close(ends[0]), ::close(other[0]);
 }
 
-TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
+TEST(Printable, WhatATerminalWouldExecuteBecomesVisible) {
   EXPECT_EQ(Printable("Régua to Pinhão, 3 µs …"), "Régua to Pinhão, 3 µs …");
   EXPECT_EQ(Printable("a\nb\tc\x1b[31m\x7f"), "a\\nb\\tc\\x1b[31m\\x7f");
   EXPECT_EQ(Printable(std::string_view("\0", 1)), "\\x00");

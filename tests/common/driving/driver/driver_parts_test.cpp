@@ -26,7 +26,7 @@ RC_GTEST_PROP(Idm, NothingAcceleratesAtTheEquilibriumGap, (std::uint32_t seed)) 
 }
 
 TEST(Idm, AgreesWithItsFormula) {
-  const IdmSettings idm{.time_gap_s = 1.5, .standing_gap_m = 2, .acceleration_mps2 = 1, .braking_mps2 = 1.5};
+  const IdmSettings idm{.time_gap_s = 1.5, .min_gap_m = 2, .acceleration_mps2 = 1, .braking_mps2 = 1.5};
   // v 20, v0 30, gap 50, leader 15: s* = 2 + 30 + 20·5/(2 sqrt 1.5) = 72.8248; a = 1 - (2/3)^4 - (72.8248/50)² =
   // -1.318897
   EXPECT_NEAR(IdmAcceleration(idm, 20, 30, 50, 15), 1 - 16.0 / 81 - std::pow((32 + 100 / (2 * std::sqrt(1.5))) / 50, 2),
@@ -34,7 +34,7 @@ TEST(Idm, AgreesWithItsFormula) {
   EXPECT_NEAR(IdmFreeAcceleration(idm, 0, 30), 1.0, 1e-12);
   EXPECT_NEAR(IdmFreeAcceleration(idm, 30, 30), 0.0, 1e-12);
   EXPECT_LT(IdmFreeAcceleration(idm, 35, 30), 0.0);
-  EXPECT_EQ(IdmAcceleration(idm, 20, 30, -1, 20), -idm.hardest_mps2);
+  EXPECT_EQ(IdmAcceleration(idm, 20, 30, -1, 20), -idm.max_deceleration_mps2);
 }
 
 // On a circle a lane at offset t is (R - t) long a radian; the other lane runs the other way.
@@ -156,10 +156,10 @@ TEST(DriverFile, AnEmptyFileGivesTheModelsDefaults) {
   EXPECT_EQ(read.side_margin_m, model.side_margin_m);
   EXPECT_EQ(read.range_m, model.range_m);
   EXPECT_EQ(read.idm.time_gap_s, model.idm.time_gap_s);
-  EXPECT_EQ(read.idm.standing_gap_m, model.idm.standing_gap_m);
+  EXPECT_EQ(read.idm.min_gap_m, model.idm.min_gap_m);
   EXPECT_EQ(read.idm.acceleration_mps2, model.idm.acceleration_mps2);
   EXPECT_EQ(read.idm.braking_mps2, model.idm.braking_mps2);
-  EXPECT_EQ(read.idm.hardest_mps2, model.idm.hardest_mps2);
+  EXPECT_EQ(read.idm.max_deceleration_mps2, model.idm.max_deceleration_mps2);
   EXPECT_EQ(read.speed.lateral_mps2, model.speed.lateral_mps2);
   EXPECT_EQ(read.speed.vertical_mps2, model.speed.vertical_mps2);
   EXPECT_EQ(read.speed.braking_mps2, model.speed.braking_mps2);

@@ -44,17 +44,18 @@ struct Street {
   std::shared_ptr<const road::World> world;
 };
 
-struct Passage {
+struct Approach {
   double front_at_red_m = 0.0;  // when amber ends
   double stands_at_m = 0.0;     // front, 20 s after amber began
   double stands_mps = 0.0;
-  double hardest_mps2 = 0.0;  // of the braking, in the mean of half a second: gears that change pull for a moment
+  double max_deceleration_mps2 =
+      0.0;  // of the braking, in the mean of half a second: gears that change pull for a moment
   double gap_m = 0.0, speed_mps = 0.0;  // from the front to the line when amber begins
   double on_at_m = 0.0;                 // front, 12 s after green
 };
 
 // Comes to the line at the limit; amber begins when the front is `gap_m` before it, green 30 s later.
-Passage Come(const Street& street, double gap_m) {
+Approach Come(const Street& street, double gap_m) {
   const network::Network& network = *street.world->network();
   auto route = std::make_unique<RoutePath>(network, StraightOn(network, {0, 0, -1}, 5000.0));
   const std::vector<LightLine> lines = LightLines(network, *route);
@@ -66,7 +67,7 @@ Passage Come(const Street& street, double gap_m) {
   EXPECT_TRUE(car->Initialise({.x_m = at.x(), .y_m = at.y(), .speed_mps = 0.98 * kLimit_mps}, *ground).ok());
   Autopilot autopilot(AutopilotSettings{}, std::move(route));
   dynamics::Controls controls;
-  Passage told;
+  Approach told;
   double amber_s = -1.0;
   std::array<double, 500> speeds{};
   for (int k = 0; k < 80'000; ++k) {
@@ -83,8 +84,9 @@ Passage Come(const Street& street, double gap_m) {
     }
     speeds[static_cast<std::size_t>(k % 500)] = car->state().speed_mps();
     if (since > 0.5 && since < 20.0)
-      told.hardest_mps2 = std::max(
-          told.hardest_mps2, (speeds[static_cast<std::size_t>((k + 1) % 500)] - car->state().speed_mps()) / 0.499);
+      told.max_deceleration_mps2 =
+          std::max(told.max_deceleration_mps2,
+                   (speeds[static_cast<std::size_t>((k + 1) % 500)] - car->state().speed_mps()) / 0.499);
     if (since < kAmber_s) told.front_at_red_m = front;
     if (since < 20.0) told.stands_at_m = front, told.stands_mps = car->state().speed_mps();
     told.on_at_m = front;
@@ -100,20 +102,20 @@ TEST(LightStops, InACarStopsAtAmberWhereItCanAndElsePassesBeforeRed) {
   const Street street;
   int stopped = 0, passed = 0;
   for (double gap = 4.0; gap <= 90.0; gap += 7.1) {
-    const Passage p = Come(street, gap);
+    const Approach p = Come(street, gap);
     const double then = p.gap_m - 0.6 - 0.5 * p.speed_mps;
     const double needed = then > 0.0 ? p.speed_mps * p.speed_mps / (2.0 * then) : 1e9;
     if (std::fabs(needed - 2.8) < 0.15) continue;  // either
     if (needed > 2.8) {
       EXPECT_GT(p.front_at_red_m, kLine_m) << gap;
-      EXPECT_LT(p.hardest_mps2, 0.5) << gap;
+      EXPECT_LT(p.max_deceleration_mps2, 0.5) << gap;
       ++passed;
     } else {
       EXPECT_LT(p.stands_mps, 0.02) << gap;
       EXPECT_LT(p.stands_at_m, kLine_m) << gap;
       EXPECT_GT(p.stands_at_m, kLine_m - 2.5) << gap;
       // What the law asks, and what the pedals' lag and their correction add.
-      EXPECT_LT(p.hardest_mps2, std::max(1.5, needed) + 1.2) << gap;
+      EXPECT_LT(p.max_deceleration_mps2, std::max(1.5, needed) + 1.2) << gap;
       EXPECT_GT(p.on_at_m, kLine_m + 40.0)
           << gap;  // green again: 12 s with at least 1 m/s² from rest are 50 m beyond the line and more
       ++stopped;

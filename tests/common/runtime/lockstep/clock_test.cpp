@@ -42,7 +42,7 @@ TEST_F(ClockTest, GrantsNothingBeforeAllNodesAreReady) {
 
 // A server has no steps of its own: that it died before says nothing, as long as the run gets on.
 TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
-  std::vector<NodeSpec> wishes{
+  std::vector<NodeSpec> specs{
       {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
       {"recorder",
        "t",
@@ -54,7 +54,7 @@ TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
        {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
        0},
       {"road", "road", Role::kService, 1, 0, 0, {}, {}, 0}};
-  const Roster roster = Roster::Create(1'000'000, 20, wishes).value();
+  const Roster roster = Roster::Create(1'000'000, 20, specs).value();
   Clock clock(roster, 1000, 0, std::vector<Policy>(3, Policy::kRestart));
   const auto all_at = [&](Step step) {
     for (const NodeIndex n : {0u, 1u, 2u}) {

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 class NoBus final : public Bus {
  public:
   base::Status Publish(const Sample&) override { return {}; }
-  void Ask(const Gap&) override {}
+  void SendNack(const Gap&) override {}
   void Tell(const Report& report) override { told.push_back(report); }
   std::vector<Report> told;
 };

@@ -132,41 +132,41 @@ inline Made MakeNodes(const Roster& roster) {
 }
 
 // A roster drawn from a seed: two to six nodes, any periods and delays, any wiring, state and event ports, a sink.
-struct Wishes {
+struct RosterSpec {
   std::vector<NodeSpec> nodes;
   Step window = 1;
 };
-inline Wishes RandomWishes(std::uint64_t seed) {
+inline RosterSpec RandomSpec(std::uint64_t seed) {
   std::uint64_t draws = 0;
   const auto draw = [&](std::uint64_t below) { return base::RandomBits({seed, draws++}) % below; };
   const std::size_t count = 2 + draw(5);
-  std::vector<NodeSpec> wishes;
+  std::vector<NodeSpec> specs;
   for (std::size_t n = 0; n < count; ++n) {
-    NodeSpec wish;
-    wish.name = "node" + std::to_string(n);
-    wish.kind = "test";
-    wish.period = 1 + static_cast<Step>(draw(7));
-    wish.delay = wish.period * (1 + static_cast<Step>(draw(3)));
+    NodeSpec spec;
+    spec.name = "node" + std::to_string(n);
+    spec.kind = "test";
+    spec.period = 1 + static_cast<Step>(draw(7));
+    spec.delay = spec.period * (1 + static_cast<Step>(draw(3)));
     const bool sink = n + 1 == count;
-    if (!sink) wish.outputs = draw(3) == 0 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a"};
-    wishes.push_back(wish);
+    if (!sink) spec.outputs = draw(3) == 0 ? std::vector<std::string>{"a", "b"} : std::vector<std::string>{"a"};
+    specs.push_back(spec);
   }
   for (std::size_t n = 0; n < count; ++n) {
     for (const char* topic : {"a", "b"}) {
       PortSpec port{topic, draw(2) == 0 && n + 1 != count ? PortKind::kState : PortKind::kEvent, {}};
       for (std::size_t m = 0; m + 1 < count; ++m) {
-        const bool publishes = wishes[m].outputs.size() == 2 || *topic == 'a';
-        if (publishes && (draw(3) != 0 || n + 1 == count)) port.sources.push_back(wishes[m].name);
+        const bool publishes = specs[m].outputs.size() == 2 || *topic == 'a';
+        if (publishes && (draw(3) != 0 || n + 1 == count)) port.sources.push_back(specs[m].name);
       }
-      if (!port.sources.empty()) wishes[n].inputs.push_back(port);
+      if (!port.sources.empty()) specs[n].inputs.push_back(port);
     }
   }
-  return {std::move(wishes), 1 + static_cast<Step>(draw(30))};
+  return {std::move(specs), 1 + static_cast<Step>(draw(30))};
 }
 
 inline Roster RandomRoster(std::uint64_t seed) {
-  const Wishes wishes = RandomWishes(seed);
-  return Roster::Create(1'000'000, wishes.window, wishes.nodes).value();
+  const RosterSpec specs = RandomSpec(seed);
+  return Roster::Create(1'000'000, specs.window, specs.nodes).value();
 }
 
 }  // namespace rodeira::lockstep::law

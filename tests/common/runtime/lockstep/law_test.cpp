@@ -131,17 +131,17 @@ TEST(Law, ASlowConsumerOfEventsLosesNoneAndASinkClosesWithTheRest) {
 }
 
 TEST(Law, MutuallyPrimePeriodsAndLongDelays) {
-  std::vector<NodeSpec> wishes;
+  std::vector<NodeSpec> specs;
   const std::vector<std::pair<Step, Step>> rates{{2, 6}, {3, 3}, {5, 20}, {7, 14}, {11, 11}};
   for (std::size_t n = 0; n < rates.size(); ++n) {
-    wishes.push_back({"n" + std::to_string(n), "test", Role::kStepped, rates[n].first, rates[n].second, 0, {"a"}, {}});
+    specs.push_back({"n" + std::to_string(n), "test", Role::kStepped, rates[n].first, rates[n].second, 0, {"a"}, {}});
   }
   for (std::size_t n = 0; n < rates.size(); ++n) {
     PortSpec port{"a", n % 2 == 0 ? PortKind::kState : PortKind::kEvent, {}};
-    for (std::size_t m = 0; m < rates.size(); ++m) port.sources.push_back(wishes[m].name);
-    wishes[n].inputs.push_back(port);
+    for (std::size_t m = 0; m < rates.size(); ++m) port.sources.push_back(specs[m].name);
+    specs[n].inputs.push_back(port);
   }
-  const Roster roster = Roster::Create(1'000'000, 1, wishes).value();  // the narrowest window there is
+  const Roster roster = Roster::Create(1'000'000, 1, specs).value();  // the narrowest window there is
   auto made = law::MakeNodes(roster);
   Contents contents;
   ASSERT_TRUE(RunShuffled(roster, made.nodes, Tracing(contents, 2310), 9).ok);

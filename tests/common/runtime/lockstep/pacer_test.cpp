@@ -143,7 +143,7 @@ TEST(Pacer, WhileANodeComputesAgainTimeStandsAndNoMoreIsGivenUpThanPassed) {
     if (before == std::string_view("a new pace")) pacer.SetPace(1000 * kMs, 0.5);
     if (before == std::string_view("another clock")) {
       pacer = Pacer(kMs, 0.5);
-      pacer.GoOn(1000 * kMs, 500);
+      pacer.ContinueFrom(1000 * kMs, 500);
     }
     for (std::int64_t t = 1001; t <= 3000; ++t) EXPECT_LE(Grant(pacer, t * kMs, 300), 500);
     EXPECT_NEAR(static_cast<double>(pacer.slipped_ns()), 2000.0 * kMs, 2.0 * kMs) << "what passed, and that once";

@@ -8,52 +8,52 @@
 namespace rodeira::lockstep {
 namespace {
 
-std::vector<std::vector<Step>> Drained(PendingNacks& questions) {
+std::vector<std::vector<Step>> Drained(PendingNacks& nacks) {
   std::vector<std::vector<Step>> all;
-  while (const auto q = questions.Next())
-    all.push_back({static_cast<Step>(q->asker), static_cast<Step>(q->gap.source), q->gap.from});
+  while (const auto q = nacks.Next())
+    all.push_back({static_cast<Step>(q->requester), static_cast<Step>(q->gap.source), q->gap.from});
   return all;
 }
 
 TEST(PendingNacks, ARepeatedNackIsAnsweredOnce) {
-  PendingNacks questions;
-  for (int i = 0; i < 1000; ++i) questions.Add({2, {1, 64}});
-  EXPECT_EQ(Drained(questions), (std::vector<std::vector<Step>>{{2, 1, 64}}));
-  EXPECT_TRUE(questions.empty());
+  PendingNacks nacks;
+  for (int i = 0; i < 1000; ++i) nacks.Add({2, {1, 64}});
+  EXPECT_EQ(Drained(nacks), (std::vector<std::vector<Step>>{{2, 1, 64}}));
+  EXPECT_TRUE(nacks.empty());
 }
 
-TEST(PendingNacks, OfOneAskerAndSourceTheNewestStandsWhateverItsStep) {
-  PendingNacks questions;
-  for (const Step from : {0, 64, 128, 32}) questions.Add({2, {1, from}});
-  EXPECT_EQ(Drained(questions), (std::vector<std::vector<Step>>{{2, 1, 32}}));
+TEST(PendingNacks, OfOneRequesterAndSourceTheNewestStandsWhateverItsStep) {
+  PendingNacks nacks;
+  for (const Step from : {0, 64, 128, 32}) nacks.Add({2, {1, from}});
+  EXPECT_EQ(Drained(nacks), (std::vector<std::vector<Step>>{{2, 1, 32}}));
 }
 
 TEST(PendingNacks, WhatIsRepeatedWhileItIsAnsweredWasAnsweredAndWhatIsNewWasNot) {
-  PendingNacks questions;
-  questions.Add({2, {1, 64}});
-  ASSERT_TRUE(questions.Next());
-  questions.Add({2, {1, 64}});
-  EXPECT_TRUE(questions.empty());
-  questions.Add({2, {1, 128}});
-  questions.Add({3, {1, 64}});
-  EXPECT_EQ(Drained(questions), (std::vector<std::vector<Step>>{{3, 1, 64}, {2, 1, 128}}));
-  questions.Add({2, {1, 128}});  // the answer was lost
-  EXPECT_EQ(Drained(questions), (std::vector<std::vector<Step>>{{2, 1, 128}}));
+  PendingNacks nacks;
+  nacks.Add({2, {1, 64}});
+  ASSERT_TRUE(nacks.Next());
+  nacks.Add({2, {1, 64}});
+  EXPECT_TRUE(nacks.empty());
+  nacks.Add({2, {1, 128}});
+  nacks.Add({3, {1, 64}});
+  EXPECT_EQ(Drained(nacks), (std::vector<std::vector<Step>>{{3, 1, 64}, {2, 1, 128}}));
+  nacks.Add({2, {1, 128}});  // the answer was lost
+  EXPECT_EQ(Drained(nacks), (std::vector<std::vector<Step>>{{2, 1, 128}}));
 }
 
 TEST(PendingNacks, NoNodeWaitsLongerThanARoundHoweverEagerTheOthersAre) {
-  PendingNacks questions;
+  PendingNacks nacks;
   const auto all_ask = [&] {
-    for (NodeIndex asker = 0; asker < 4; ++asker) questions.Add({asker, {asker % 2, 0}});
+    for (NodeIndex requester = 0; requester < 4; ++requester) nacks.Add({requester, {requester % 2, 0}});
   };
   std::vector<int> answered(4);
   all_ask();
   for (int i = 0; i < 40; ++i) {
-    const auto next = questions.Next();
+    const auto next = nacks.Next();
     ASSERT_TRUE(next);
-    ++answered[next->asker];
+    ++answered[next->requester];
     all_ask();
-    questions.Add({next->asker, {next->gap.source, i + 1}});  // it asks at once for the rest
+    nacks.Add({next->requester, {next->gap.source, i + 1}});  // it asks at once for the rest
   }
   EXPECT_EQ(answered, (std::vector<int>{10, 10, 10, 10}));
 }

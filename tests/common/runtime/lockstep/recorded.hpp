@@ -61,10 +61,10 @@ class RecorderDouble final : public Node {
 
 // A roster drawn from a seed, with a recorder that is wired to everything and snapshots.
 inline Roster RecordedRoster(std::uint64_t seed) {
-  Wishes wishes = RandomWishes(seed);
+  RosterSpec specs = RandomSpec(seed);
   Step every = 1;
-  for (const NodeSpec& wish : wishes.nodes) {
-    if (!wish.outputs.empty()) every = std::lcm(every, wish.period);
+  for (const NodeSpec& spec : specs.nodes) {
+    if (!spec.outputs.empty()) every = std::lcm(every, spec.period);
   }
   NodeSpec recorder;
   recorder.name = "recorder";
@@ -72,17 +72,17 @@ inline Roster RecordedRoster(std::uint64_t seed) {
   recorder.period = 1 + static_cast<Step>(seed % 11);
   PortSpec snapshots{std::string(kSnapshotTopic), PortKind::kEvent, {}};
   PortSpec a{"a", PortKind::kEvent, {}}, b{"b", PortKind::kEvent, {}};
-  for (NodeSpec& wish : wishes.nodes) {
-    if (wish.outputs.empty()) continue;
-    wish.snapshot_every = every;
-    snapshots.sources.push_back(wish.name);
-    a.sources.push_back(wish.name);
-    if (wish.outputs.size() == 2) b.sources.push_back(wish.name);
+  for (NodeSpec& spec : specs.nodes) {
+    if (spec.outputs.empty()) continue;
+    spec.snapshot_every = every;
+    snapshots.sources.push_back(spec.name);
+    a.sources.push_back(spec.name);
+    if (spec.outputs.size() == 2) b.sources.push_back(spec.name);
   }
   recorder.inputs = {a, snapshots};
   if (!b.sources.empty()) recorder.inputs.push_back(b);
-  wishes.nodes.push_back(recorder);
-  return Roster::Create(1'000'000, wishes.window, wishes.nodes).value();
+  specs.nodes.push_back(recorder);
+  return Roster::Create(1'000'000, specs.window, specs.nodes).value();
 }
 
 }  // namespace rodeira::lockstep::law

@@ -128,21 +128,21 @@ class RecoveryOfOne : public ::testing::Test {
  protected:
   // A car each step, a recorder each 5, snapshots each 10; delays 1 and 5.
   static Roster Make(bool with_recorder) {
-    std::vector<NodeSpec> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
+    std::vector<NodeSpec> specs{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
     if (with_recorder) {
-      wishes.push_back({"recorder",
-                        "t",
-                        Role::kStepped,
-                        5,
-                        5,
-                        0,
-                        {},
-                        {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
-                        0});
+      specs.push_back({"recorder",
+                       "t",
+                       Role::kStepped,
+                       5,
+                       5,
+                       0,
+                       {},
+                       {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
+                       0});
     } else {
-      wishes.push_back({"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}, 0});
+      specs.push_back({"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}, 0});
     }
-    return Roster::Create(1'000'000, 20, wishes).value();
+    return Roster::Create(1'000'000, 20, specs).value();
   }
   static Report Running(NodeIndex node, Step progress, Step safe = -1) {
     Report report;

@@ -6,8 +6,8 @@
 namespace rodeira::lockstep {
 namespace {
 
-std::string Refusal(const std::vector<NodeSpec>& wishes) {
-  const auto roster = Roster::Create(1'000'000, 20, wishes);
+std::string Refusal(const std::vector<NodeSpec>& specs) {
+  const auto roster = Roster::Create(1'000'000, 20, specs);
   return roster.ok() ? "" : roster.error().Text();
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-class ConductorTest : public ::testing::Test {
+class RunControllerTest : public ::testing::Test {
  protected:
   static Wall At(std::int64_t ms) { return {1000 * kMs + ms * kMs, 5'000'000 * kMs + ms * kMs}; }
   void Report(Phase phase, Step progress) {
@@ -23,8 +23,8 @@ class ConductorTest : public ::testing::Test {
     ASSERT_TRUE(clock_.Take(report).ok());
   }
   // The node runs all that is granted at once.
-  Step Move(std::int64_t ms) {
-    const Step through = controller_.Move(At(ms)).through;
+  Step Update(std::int64_t ms) {
+    const Step through = controller_.Update(At(ms)).through;
     Report(Phase::kRunning, through + 1);
     return through;
   }
@@ -49,42 +49,42 @@ class ConductorTest : public ::testing::Test {
 
 using Kind = Command::Kind;
 
-TEST_F(ConductorTest, PauseStepAndResumeMoveTheGrantAndNothingElse) {
+TEST_F(RunControllerTest, PauseStepAndResumeMoveTheGrantAndNothingElse) {
   Report(Phase::kReady, 0);
-  EXPECT_EQ(Move(0), 0);
-  EXPECT_EQ(Move(5), 5);
+  EXPECT_EQ(Update(0), 0);
+  EXPECT_EQ(Update(5), 5);
   EXPECT_EQ(Said(Kind::kPause, 5), "paused at step 5 (0.005 s)");
-  EXPECT_EQ(Move(100), 5);
+  EXPECT_EQ(Update(100), 5);
   EXPECT_EQ(Said(Kind::kStep, 100), "1 step from step 5 (0.005 s)");
-  EXPECT_EQ(Move(101), 6);
-  EXPECT_EQ(Move(200), 6);
+  EXPECT_EQ(Update(101), 6);
+  EXPECT_EQ(Update(200), 6);
   EXPECT_EQ(Said(Kind::kStep, 200, 20), "20 steps from step 6 (0.006 s)");
-  EXPECT_EQ(Move(201), 15) << "window 8 from the next activation, 7";
-  EXPECT_EQ(Move(202), 24);
-  EXPECT_EQ(Move(203), 26);
-  EXPECT_EQ(Move(300), 26);
+  EXPECT_EQ(Update(201), 15) << "window 8 from the next activation, 7";
+  EXPECT_EQ(Update(202), 24);
+  EXPECT_EQ(Update(203), 26);
+  EXPECT_EQ(Update(300), 26);
   EXPECT_EQ(Said(Kind::kResume, 300), "runs in real time at step 26 (0.026 s)");
-  EXPECT_EQ(Move(304), 30);
+  EXPECT_EQ(Update(304), 30);
   EXPECT_EQ(controller_.pacer().slipped_ns(), 0);
   EXPECT_EQ(controller_.pacer().lateness().late, 7u)
       << "1 to 4 and 27 to 29, looked at too late; none of those that the operator held";
 }
 
-TEST_F(ConductorTest, AStepOfARunningRunPausesIt) {
+TEST_F(RunControllerTest, AStepOfARunningRunPausesIt) {
   Report(Phase::kReady, 0);
-  (void)Move(0);
-  EXPECT_EQ(Move(3), 3);
+  (void)Update(0);
+  EXPECT_EQ(Update(3), 3);
   EXPECT_EQ(Said(Kind::kStep, 3, 2), "2 steps from step 3 (0.003 s)");
-  EXPECT_EQ(Move(50), 5);
-  EXPECT_EQ(Move(90), 5);
+  EXPECT_EQ(Update(50), 5);
+  EXPECT_EQ(Update(90), 5);
   EXPECT_TRUE(controller_.pacer().paused());
 }
 
-TEST_F(ConductorTest, PacesAndTheirLadder) {
+TEST_F(RunControllerTest, PacesAndTheirLadder) {
   Report(Phase::kReady, 0);
-  (void)Move(0);
+  (void)Update(0);
   EXPECT_EQ(Said(Kind::kPace, 0, 1, 0.5), "runs at 0.5 × real time at step 0 (0.000 s)");
-  EXPECT_EQ(Move(10), 5);
+  EXPECT_EQ(Update(10), 5);
   EXPECT_EQ(Said(Kind::kFaster, 10), "runs in real time at step 5 (0.005 s)");
   for (int i = 0; i < 4; ++i) (void)Said(Kind::kFaster, 10);
   EXPECT_EQ(controller_.pacer().pace(), 16.0);
@@ -96,12 +96,12 @@ TEST_F(ConductorTest, PacesAndTheirLadder) {
   EXPECT_EQ(Said(Kind::kToggle, 11), "runs at 0.015625 × real time at step 5 (0.005 s)");
 }
 
-TEST_F(ConductorTest, WhatTheRunCannotDoIsASentence) {
+TEST_F(RunControllerTest, WhatTheRunCannotDoIsASentence) {
   EXPECT_EQ(Said(Kind::kPause, 0), "failed: the run has not begun; it waits for a");
   EXPECT_EQ(Said(Kind::kMark, 0), "failed: the run has not begun; it waits for a");
   Report(Phase::kReady, 0);
-  (void)Move(0);
-  (void)Move(4);
+  (void)Update(0);
+  (void)Update(4);
   EXPECT_EQ(Said(Kind::kStop, 5), "stops after step 4 (0.004 s)");
   EXPECT_TRUE(clock_.grant().final);
   EXPECT_EQ(Said(Kind::kResume, 6), "failed: the run is ending at step 4 (0.004 s)");
@@ -111,12 +111,12 @@ TEST_F(ConductorTest, WhatTheRunCannotDoIsASentence) {
   EXPECT_EQ(Said(Kind::kState, 8), "failed: the run has failed: a fault");
 }
 
-TEST_F(ConductorTest, ARestartOfAnUnknownNodeIsWrongInputAtAnyTime) {
+TEST_F(RunControllerTest, ARestartOfAnUnknownNodeIsWrongInputAtAnyTime) {
   const auto restart = [&](const std::string& name) { return Do(Kind::kRestart, 0, 1, 0.0, name); };
   for (const bool begun : {false, true}) {
     if (begun) {
       Report(Phase::kReady, 0);
-      (void)Move(0);
+      (void)Update(0);
     }
     const auto unknown = restart("b");
     ASSERT_FALSE(unknown.ok());
@@ -137,19 +137,19 @@ TEST(NamedNodeTest, TheNearestNameIsGiven) {
   EXPECT_THAT(NamedNode(roster, "drivr").error(), IsError("launch.unknown_node", "restart: … 'drivr' … 'driver'"));
 }
 
-TEST_F(ConductorTest, AStopBeforeTheFirstStepAborts) {
+TEST_F(RunControllerTest, AStopBeforeTheFirstStepAborts) {
   EXPECT_EQ(Said(Kind::kStop, 0), "stopped before the first step");
   EXPECT_TRUE(clock_.grant().abort);
 }
 
-TEST_F(ConductorTest, TheLogTellsWhenEachStepWasGrantedAndWhatWasDone) {
+TEST_F(RunControllerTest, TheLogTellsWhenEachStepWasGrantedAndWhatWasDone) {
   Report(Phase::kReady, 0);
-  (void)Move(40);
-  (void)Move(43);
+  (void)Update(40);
+  (void)Update(43);
   ASSERT_TRUE(Do(Kind::kMark, 43, 1, 0.0, "a deer").ok());
   (void)Said(Kind::kPause, 44);
   (void)Said(Kind::kStep, 50);
-  (void)Move(51);
+  (void)Update(51);
   (void)Said(Kind::kStop, 60);
   controller_.CloseLog(At(61));
   const auto batch = controller_.log().Take(At(61).monotonic_ns);
@@ -168,9 +168,9 @@ TEST_F(ConductorTest, TheLogTellsWhenEachStepWasGrantedAndWhatWasDone) {
   EXPECT_FALSE(controller_.log().Take(At(9999).monotonic_ns).has_value()) << "nothing follows the last";
 }
 
-TEST_F(ConductorTest, AFaultClosesTheLog) {
+TEST_F(RunControllerTest, AFaultClosesTheLog) {
   Report(Phase::kReady, 0);
-  (void)Move(0);
+  (void)Update(0);
   controller_.Abort("node 'a' was killed", At(5));
   controller_.Abort("what follows from it", At(6));
   controller_.CloseLog(At(7));
@@ -181,47 +181,47 @@ TEST_F(ConductorTest, AFaultClosesTheLog) {
   EXPECT_TRUE(batch.last);
 }
 
-TEST_F(ConductorTest, AtTheLastStepTimeIsNotLateAnyMore) {
+TEST_F(RunControllerTest, AtTheLastStepTimeIsNotLateAnyMore) {
   Clock clock(roster_, 3);
   RunController controller(clock, Pacer(kMs, 1.0));
   lockstep::Report report;
   report.phase = Phase::kReady;
   ASSERT_TRUE(clock.Take(report).ok());
-  for (int t = 0; t <= 3; ++t) (void)controller.Move(At(t));
+  for (int t = 0; t <= 3; ++t) (void)controller.Update(At(t));
   EXPECT_TRUE(clock.grant().final);
-  (void)controller.Move(At(500));
+  (void)controller.Update(At(500));
   EXPECT_EQ(controller.pacer().slipped_ns(), 0) << "closing files takes time and is nobody's lateness";
   EXPECT_EQ(controller.NextDueIn(At(500)), 0);
 }
 
 // Of a PC that slept only one clock tells; of a process that was stopped all do.
-TEST_F(ConductorTest, ARunInRealTimeIsPausedWhereItSlept) {
+TEST_F(RunControllerTest, ARunInRealTimeIsPausedWhereItSlept) {
   Report(Phase::kReady, 0);
-  EXPECT_EQ(Move(0), 0);
-  EXPECT_EQ(Move(5), 5);
+  EXPECT_EQ(Update(0), 0);
+  EXPECT_EQ(Update(5), 5);
   Wall awake = At(6);
   awake.awake_and_asleep_ns = 40'000 * kMs;
-  (void)controller_.Move(At(5));
-  const Step stands = controller_.Move(awake).through;
+  (void)controller_.Update(At(5));
+  const Step stands = controller_.Update(awake).through;
   EXPECT_TRUE(controller_.pacer().paused());
   EXPECT_EQ(controller_.TakeWarning(),
             "this PC slept, or the clock was stopped, for 40 s: the run is paused at step 5 (0.005 s)");
   EXPECT_EQ(controller_.TakeWarning(), "") << "once";
-  EXPECT_EQ(controller_.Move(awake).through, stands);
+  EXPECT_EQ(controller_.Update(awake).through, stands);
   EXPECT_EQ(Said(Kind::kResume, 6).substr(0, 17), "runs in real time");
-  EXPECT_GT(Move(9), stands);
-  EXPECT_EQ(Move(9 + 9'999), Move(9 + 9'999)) << "a clock that was held up for less goes on";
+  EXPECT_GT(Update(9), stands);
+  EXPECT_EQ(Update(9 + 9'999), Update(9 + 9'999)) << "a clock that was held up for less goes on";
   EXPECT_FALSE(controller_.pacer().paused());
-  (void)Move(9 + 9'999 + 10'000);
+  (void)Update(9 + 9'999 + 10'000);
   EXPECT_TRUE(controller_.pacer().paused());
 }
 
-TEST_F(ConductorTest, ARunAsFastAsItCanGoesOnWhereItSlept) {
+TEST_F(RunControllerTest, ARunAsFastAsItCanGoesOnWhereItSlept) {
   Report(Phase::kReady, 0);
-  (void)Move(0);
+  (void)Update(0);
   (void)Said(Kind::kPace, 1, 1, 0.0);
-  (void)Move(2);
-  (void)Move(60'000);
+  (void)Update(2);
+  (void)Update(60'000);
   EXPECT_FALSE(controller_.pacer().paused());
   EXPECT_EQ(controller_.TakeWarning(), "");
 }

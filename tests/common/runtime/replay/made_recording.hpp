@@ -48,30 +48,30 @@ inline record::ChannelId AddTopic(record::McapWriter& writer, std::string_view t
   return Must(writer.AddChannel(topic, schema, "cdr", metadata));
 }
 
-inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
-  const auto launch = Must(launch::Launch::Parse(wish.launch_text, "launch.yaml"));
+inline void Make(const MadeRecording& spec, const std::filesystem::path& file) {
+  const auto launch = Must(launch::Launch::Parse(spec.launch_text, "launch.yaml"));
   const lockstep::Roster& roster = launch.roster();
-  record::WriterSettings settings = wish.settings;
+  record::WriterSettings settings = spec.settings;
   settings.overwrite = true;
   auto writer = Must(record::McapWriter::Open(file, settings));
   Must(writer.AddMetadata("rodeira", {{"launch_file", "launch.yaml"},
                                       {"roster_hash", base::Hex(roster.hash())},
                                       {"protocol_hash", base::Hex(idl::ProtocolHash())},
                                       {"mathematics_hash", base::Hex(base::MathLibraryFingerprint())}}));
-  Must(writer.AddAttachment("launch.yaml", "application/yaml", std::as_bytes(std::span(wish.launch_text)), 0, 0));
+  Must(writer.AddAttachment("launch.yaml", "application/yaml", std::as_bytes(std::span(spec.launch_text)), 0, 0));
   std::vector<record::ChannelId> channels;
   for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {
     channels.push_back(AddTopic(writer, roster.source(s).topic, {{"source_number", std::to_string(s)}}));
   }
   std::vector<std::pair<lockstep::Step, lockstep::SourceIndex>> order;
-  for (lockstep::Step step = 0; step <= wish.last_step; ++step) {
+  for (lockstep::Step step = 0; step <= spec.last_step; ++step) {
     for (lockstep::SourceIndex s = 0; s < channels.size(); ++s) {
       if (step % roster.source(s).period == 0) order.emplace_back(step, s);
     }
   }
-  if (wish.reorder) wish.reorder(order);
+  if (spec.reorder) spec.reorder(order);
   for (const auto& [step, source] : order) {
-    base::Bytes payload = wish.payload(roster.source(source), step);
+    base::Bytes payload = spec.payload(roster.source(source), step);
     if (payload.empty()) continue;
     lockstep::SampleHeader header;
     header.step = step;
@@ -81,8 +81,8 @@ inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
     const auto time_ns = static_cast<std::uint64_t>(header.time_ns);
     Must(writer.Write(channels[source], 0, time_ns, time_ns, payload));
   }
-  if (wish.more) wish.more(writer);
-  const lockstep::Step said = wish.said_last_step.value_or(wish.last_step);
+  if (spec.more) spec.more(writer);
+  const lockstep::Step said = spec.said_last_step.value_or(spec.last_step);
   Must(writer.AddMetadata("rodeira.end", {{"last_step", std::to_string(said)}, {"complete", "true"}}));
   Must(writer.Close());
 }

@@ -37,19 +37,19 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
   return idl::Encode(car);
 }
 
-class TapeTest : public testing::Test {
+class SampleReaderTest : public testing::Test {
  protected:
-  TapeTest()
+  SampleReaderTest()
       : file_(std::filesystem::temp_directory_path() / ("rodeira-tape-" + std::to_string(::getpid()) + ".mcap")) {}
-  ~TapeTest() override { std::filesystem::remove(file_); }
+  ~SampleReaderTest() override { std::filesystem::remove(file_); }
 
   RecordedRun Made(Step last, const std::function<void(MadeRecording&)>& change = {}) {
-    MadeRecording wish;
-    wish.launch_text = kLaunch;
-    wish.last_step = last;
-    wish.payload = Payload;
-    if (change) change(wish);
-    Make(wish, file_);
+    MadeRecording spec;
+    spec.launch_text = kLaunch;
+    spec.last_step = last;
+    spec.payload = Payload;
+    if (change) change(spec);
+    Make(spec, file_);
     auto run = RecordedRun::Open(file_);
     EXPECT_TRUE(run.ok()) << run.error().Text();
     return std::move(run).value();
@@ -101,7 +101,7 @@ class TapeTest : public testing::Test {
   std::filesystem::path file_;
 };
 
-TEST_F(TapeTest, SaysWhatTheStepLawSays) {
+TEST_F(SampleReaderTest, SaysWhatTheStepLawSays) {
   const RecordedRun run = Made(30'000);
   SampleReader sample_reader(run, Seen(run));
   EXPECT_EQ(ValidAt(sample_reader, 0), (std::vector<Step>{0, 0}));
@@ -112,7 +112,7 @@ TEST_F(TapeTest, SaysWhatTheStepLawSays) {
   ExpectTheSameAsPlainly(run, 30'000, 1);
 }
 
-TEST_F(TapeTest, AnHourIsReadOnlyWhereItIsLookedAt) {
+TEST_F(SampleReaderTest, AnHourIsReadOnlyWhereItIsLookedAt) {
   constexpr Step kHour = 3'600'000;
   const RecordedRun run = Made(kHour);
   ASSERT_GE(run.reader().chunks().size(), 3600u) << "chunks of a second";
@@ -135,11 +135,11 @@ TEST_F(TapeTest, AnHourIsReadOnlyWhereItIsLookedAt) {
   EXPECT_EQ(sample_reader.chunks_read(), before + 7) << "second 2002 is the eighth that was kept";
 }
 
-TEST_F(TapeTest, ChunksThatOverlapAreTakenTogether) {
+TEST_F(SampleReaderTest, ChunksThatOverlapAreTakenTogether) {
   for (const std::uint64_t seed : {11U, 12U, 13U}) {
-    const RecordedRun run = Made(20'000, [seed](MadeRecording& wish) {
-      wish.settings.chunk_bytes = 4096;
-      wish.reorder = [seed](auto& order) {  // each up to three seconds away from its place
+    const RecordedRun run = Made(20'000, [seed](MadeRecording& spec) {
+      spec.settings.chunk_bytes = 4096;
+      spec.reorder = [seed](auto& order) {  // each up to three seconds away from its place
         std::vector<std::pair<double, std::pair<Step, SourceIndex>>> keyed;
         for (std::size_t i = 0; i < order.size(); ++i)
           keyed.emplace_back(static_cast<double>(order[i].first) + 3000.0 * base::RandomUniform({seed, i}), order[i]);
@@ -151,9 +151,9 @@ TEST_F(TapeTest, ChunksThatOverlapAreTakenTogether) {
   }
 }
 
-TEST_F(TapeTest, WhereASampleIsMissingTheOneBeforeItStands) {
-  const RecordedRun run = Made(20'000, [](MadeRecording& wish) {
-    wish.payload = [](const lockstep::Source& source, Step step) {
+TEST_F(SampleReaderTest, WhereASampleIsMissingTheOneBeforeItStands) {
+  const RecordedRun run = Made(20'000, [](MadeRecording& spec) {
+    spec.payload = [](const lockstep::Source& source, Step step) {
       const bool lost = source.topic == idl::topics::kVehicleState
                             ? step > 5'000 && step < 12'000
                             : source.topic == idl::topics::kTrafficState && step < 3'000;
@@ -167,7 +167,7 @@ TEST_F(TapeTest, WhereASampleIsMissingTheOneBeforeItStands) {
   ExpectTheSameAsPlainly(run, 20'000, 2);
 }
 
-TEST_F(TapeTest, ADamagedChunkIsToldOfAndTheRestIsThere) {
+TEST_F(SampleReaderTest, ADamagedChunkIsToldOfAndTheRestIsThere) {
   { const RecordedRun whole = Made(20'000); }
   const auto damaged_at = [&] {
     const auto reader = record::McapReader::Open(file_);
@@ -193,14 +193,14 @@ TEST_F(TapeTest, ADamagedChunkIsToldOfAndTheRestIsThere) {
   EXPECT_EQ(ValidAt(sample_reader, 11'000), (std::vector<Step>{11'000, 11'000}));
 }
 
-TEST_F(TapeTest, AnEndThatCannotBeIsRefused) {
+TEST_F(SampleReaderTest, AnEndThatCannotBeIsRefused) {
   const auto make = [&](Step said) {
-    MadeRecording wish;
-    wish.launch_text = kLaunch;
-    wish.last_step = 100;
-    wish.payload = Payload;
-    wish.said_last_step = said;
-    Make(wish, file_);
+    MadeRecording spec;
+    spec.launch_text = kLaunch;
+    spec.last_step = 100;
+    spec.payload = Payload;
+    spec.said_last_step = said;
+    Make(spec, file_);
     return RecordedRun::Open(file_);
   };
   const auto run = make(9'000'000'000'000'000'000);
@@ -213,7 +213,7 @@ TEST_F(TapeTest, AnEndThatCannotBeIsRefused) {
   EXPECT_EQ(ValidAt(sample_reader, 4'000), (std::vector<Step>{100, 0}));
 }
 
-TEST_F(TapeTest, BrokenFilesAreRefusedOrRead) {
+TEST_F(SampleReaderTest, BrokenFilesAreRefusedOrRead) {
   { const RecordedRun whole = Made(3'000); }
   const base::Bytes whole = base::ReadBytes(file_).value();
   std::size_t opened = 0, refused = 0;

@@ -30,8 +30,8 @@ struct Person {
 };
 
 // Left, right or neither; throttle, brake or neither.
-KeyboardInput Look(const Person& person, const dynamics::VehicleState& state, const driver::LanePath& path, double d_m,
-                   double allowed_mps) {
+KeyboardInput ReactTo(const Person& person, const dynamics::VehicleState& state, const driver::LanePath& path,
+                      double d_m, double allowed_mps) {
   const Eigen::Vector3d v_B = state.q_WB.conjugate() * state.v_WB_W;
   const double ahead_m = std::max(5.0, person.preview_s * v_B.x());
   const Eigen::Vector3d target_B = state.q_WB.conjugate() * (path.At(d_m + ahead_m).p_W - state.p_WB_W);
@@ -79,7 +79,7 @@ Drive DriveBy(const Person& person, const KeyboardSettings& settings) {
     drive.arrived = place->d_m > path.length_m() - 40.0;
     if (drive.arrived) return drive;
     if (ms % person.decides_ms == 0)
-      decided = Look(person, car->state(), path, place->d_m, plan.At(place->d_m + 5.0).speed_mps);
+      decided = ReactTo(person, car->state(), path, place->d_m, plan.At(place->d_m + 5.0).speed_mps);
     if (ms % 10 == 0) {
       on_the_way.push_back(decided);
       KeyboardInput input = on_the_way.front();

@@ -18,7 +18,7 @@ namespace rodeira::scene {
 
 // What is asked of a level, in height, and how far beside it what is met may lie: a drawn line may be so far from the
 // edge at which SUELO steps.
-struct Asked {
+struct Tolerances {
   std::size_t level = 0;
   double height_m = 0.005;
   double beside_m = 0.003;
@@ -99,7 +99,7 @@ inline bool IsRoad(const Mesh& mesh) {
 // level.
 template <class Counts, class PointCounts>
 Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed,
-                      const Counts& counts, const Asked& asked, const PointCounts& point_counts) {
+                      const Counts& counts, const Tolerances& asked, const PointCounts& point_counts) {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
   std::vector<double> sums;
   for (const GroundTile& tile : tiles) {
@@ -136,7 +136,7 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
 template <class Counts>
 Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed,
                       const Counts& counts) {
-  return Correlate(world, tiles, count, seed, counts, Asked{}, [](const Eigen::Vector3d&) { return true; });
+  return Correlate(world, tiles, count, seed, counts, Tolerances{}, [](const Eigen::Vector3d&) { return true; });
 }
 
 inline Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count,

@@ -26,7 +26,7 @@ namespace rodeira::scene {
 namespace {
 
 // Chords of the finest level, on roads as beside them.
-constexpr Asked kFinest{0, 0.003, 0.003};
+constexpr Tolerances kFinest{0, 0.003, 0.003};
 const auto everywhere = [](const Eigen::Vector3d&) { return true; };
 
 // A road of 12 and 15 m radius through a hill and over a hollow: its verges, and its cuts and fills with the land
@@ -139,7 +139,7 @@ TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
         << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
     EXPECT_LT(found.worst_m, 0.01) << name << " at " << found.where.transpose();
     EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
-    const Correlation farther = Correlate(*seen, tiles, Points(), 53, is_near, Asked{}, is_beside);
+    const Correlation farther = Correlate(*seen, tiles, Points(), 53, is_near, Tolerances{}, is_beside);
     EXPECT_LE(farther.far, 2e-5 * farther.asked)
         << name << ": worst " << farther.worst_m << " m at " << farther.where.transpose();
     std::printf(

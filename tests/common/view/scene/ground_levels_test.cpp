@@ -22,7 +22,8 @@ namespace rodeira::scene {
 namespace {
 
 // As the numbers are asked, whatever the code takes.
-constexpr std::array<Asked, 4> kAsked = {{{0, 0.003, 0.003}, {1, 0.02, 0.02}, {2, 0.10, 0.10}, {3, 0.50, 0.50}}};
+constexpr std::array<Tolerances, 4> kTolerances = {
+    {{0, 0.003, 0.003}, {1, 0.02, 0.02}, {2, 0.10, 0.10}, {3, 0.50, 0.50}}};
 constexpr std::array<double, 4> kInPlan_m = {0.001, 0.02, 0.10, 0.50};
 
 enum class Kind { kRoad, kVerge, kSlope, kLand };
@@ -51,17 +52,17 @@ bool IsNearARoad(const road::World& world, const Mesh& mesh, std::size_t triangl
 
 void ExpectLevels(const std::string& name, const road::World& world, const std::vector<GroundTile>& tiles) {
   const auto near = [&](const Mesh& mesh, std::size_t i) { return IsNearARoad(world, mesh, i); };
-  for (std::size_t level = 1; level < kAsked.size(); ++level) {
+  for (std::size_t level = 1; level < kTolerances.size(); ++level) {
     for (const auto& [kind, what] :
          {std::pair(Kind::kRoad, "roads"), std::pair(Kind::kVerge, "verges"), std::pair(Kind::kSlope, "slopes")}) {
-      const Correlation found = Correlate(world, tiles, Points() / 10, 29, near, kAsked[level],
+      const Correlation found = Correlate(world, tiles, Points() / 10, 29, near, kTolerances[level],
                                           [&, of = kind](const Eigen::Vector3d& p) { return KindAt(world, p) == of; });
       EXPECT_EQ(found.asked, Points() / 10) << name << ", level " << level << ", " << what;
       EXPECT_EQ(found.far, 0) << name << ", level " << level << ", " << what << ": worst " << found.worst_m << " m at "
                               << found.where.transpose();
       EXPECT_LT(found.stepped, 0.01 * found.asked) << name << ", level " << level << ", " << what;
       std::printf("%s, level %zu, %s: %d points, %d farther off than %.2f m, %d at steps, worst %.4f m\n", name.c_str(),
-                  level, what, found.asked, found.far, kAsked[level].height_m, found.stepped, found.worst_m);
+                  level, what, found.asked, found.far, kTolerances[level].height_m, found.stepped, found.worst_m);
     }
   }
 }
@@ -130,7 +131,7 @@ TEST(GroundLevels, LandBelowBridgesIsMet) {
       const auto corners = CornersOf(mesh, i);
       return ((corners[0] + corners[1] + corners[2]).head<2>() / 3.0 - middle).norm() < reach_m + 10.0;
     };
-    for (const Asked& asked : kAsked) {
+    for (const Tolerances& asked : kTolerances) {
       int below = 0;
       const Correlation found = Correlate(world, tiles, 4 * Points(), 71, near, asked, [&](const Eigen::Vector3d& p) {
         if ((p.head<2>() - middle).norm() > reach_m) return false;
@@ -172,13 +173,13 @@ TEST(GroundLevels, NarrowStripsOfSlopesAreMet) {
                          [&](const Eigen::Vector2d& place) { return (middle - place).norm() < 30.0; });
     };
     for (const std::size_t level : {std::size_t{0}, std::size_t{1}}) {
-      const Correlation found = Correlate(world, tiles, Points(), 67, is_there, kAsked[level],
+      const Correlation found = Correlate(world, tiles, Points(), 67, is_there, kTolerances[level],
                                           [&](const Eigen::Vector3d& p) { return KindAt(world, p) == Kind::kSlope; });
       EXPECT_EQ(found.asked, Points()) << name;
       EXPECT_EQ(found.far, 0) << name << ", level " << level << ": worst " << found.worst_m << " m at "
                               << found.where.transpose();
       std::printf("%s, level %zu: %d points of slopes, %d farther off than %.3f m, worst %.4f m\n", name.c_str(), level,
-                  found.asked, found.far, kAsked[level].height_m, found.worst_m);
+                  found.asked, found.far, kTolerances[level].height_m, found.worst_m);
     }
   }
 }

@@ -56,9 +56,9 @@ TEST(Ground, IsWhereTheTyresAreOnRealFilesButAtTheirSteps) {
     const auto tiles = BuildAll(world);
     int at_steps = 0;
     const auto counts = [](const Mesh& mesh, std::size_t i) { return IsRoad(mesh) && !StandsUpright(mesh, i); };
-    const Correlation found = Correlate(world, tiles, Points(), 2, counts, Asked{}, [&](const Eigen::Vector3d& p) {
+    const Correlation found = Correlate(world, tiles, Points(), 2, counts, Tolerances{}, [&](const Eigen::Vector3d& p) {
       const road::SurfacePoint at = world.At(p.x(), p.y(), p.z() + 0.3);
-      const bool off = !at.inside || std::fabs(at.z_m - p.z()) > Asked{}.height_m;
+      const bool off = !at.inside || std::fabs(at.z_m - p.z()) > Tolerances{}.height_m;
       if (!off || !(StepsNearby(world, p, kStep_m) || IsSteepNearby(world, p, kStep_m))) return true;
       ++at_steps;
       return false;

@@ -26,7 +26,7 @@ namespace rodeira::scene {
 namespace {
 
 // Chords of the finest level, on roads as beside them.
-constexpr Asked kFinest{0, 0.003, 0.003};
+constexpr Tolerances kFinest{0, 0.003, 0.003};
 const auto everywhere = [](const Eigen::Vector3d&) { return true; };
 
 TEST(Ground, IsWhereTheTyresAre) {

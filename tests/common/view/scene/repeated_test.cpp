@@ -82,14 +82,14 @@ TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
   const auto& [key, tile] = *things.tiles().begin();
   const auto places_of = [&](int level) {
     std::multiset<std::size_t> places;
-    for (const Repeated& repeated : DrawThings(tile, key, level).repeated) places.insert(repeated.places.size());
+    for (const Repeated& repeated : DrawStaticObjects(tile, key, level).repeated) places.insert(repeated.places.size());
     return places;
   };
   EXPECT_EQ(places_of(0), (std::multiset<std::size_t>{10, 20}));  // the four lamps are merged
   EXPECT_EQ(places_of(1), (std::multiset<std::size_t>{10, 20}));
   EXPECT_EQ(places_of(2), (std::multiset<std::size_t>{20})) << "posts are not seen from so far";
   EXPECT_EQ(places_of(3), (std::multiset<std::size_t>{}));
-  const DrawnThings drawn = DrawThings(tile, key, 0);
+  const DrawnStaticObjects drawn = DrawStaticObjects(tile, key, 0);
   ASSERT_EQ(drawn.meshes.size(), 1U);
   for (std::size_t i = 0; i < drawn.meshes[0].positions.size(); ++i)
     EXPECT_GT(drawn.meshes[0].PositionW(i).y(), 100.0) << "the lamps alone";

@@ -22,7 +22,7 @@ namespace rodeira::scene {
 namespace {
 
 // As the numbers are asked of the four levels, whatever the code takes: in plan and in height.
-constexpr std::array<Tolerance, 4> kAsked = {{{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
+constexpr std::array<Tolerance, 4> kTolerances = {{{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
 
 struct Worst {
   double plan_m = 0.0, height_m = 0.0;
@@ -65,7 +65,7 @@ std::optional<RoadPlace> PlaceOn(const network::Network& network, std::uint32_t 
 // Dense places on the chords between neighbouring points of a road's lines: how far the nearest edge of a lane is from
 // them across the road, and the road's surface above or below. Lines across the road and those between lanes' edges are
 // held in height alone.
-void Look(const network::Network& network, std::uint32_t index, const Tolerance& tolerance, Worst& worst) {
+void Measure(const network::Network& network, std::uint32_t index, const Tolerance& tolerance, Worst& worst) {
   const network::Road& road = network.roads()[index];
   const network::LaneSection* section = nullptr;
   for (const Line3& line : RoadLinesOf(road, tolerance)) {
@@ -103,18 +103,18 @@ TEST(RoadLines, KeepTheChordErrorOfTheirLevel) {
   for (const std::string name : {"n222", "haste", "motorway"}) {
     const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
-    for (std::size_t level = 0; level < kAsked.size(); ++level) {
+    for (std::size_t level = 0; level < kTolerances.size(); ++level) {
       Worst worst;
       const network::Network& network = *loaded.value()->network();
       for (std::uint32_t index = 0; index < network.roads().size(); ++index) {
         // In a junction the ground is the junction's, and so is what is drawn (JunctionMesh).
-        if (network.roads()[index].spec().junction.empty()) Look(network, index, kAsked[level], worst);
+        if (network.roads()[index].spec().junction.empty()) Measure(network, index, kTolerances[level], worst);
       }
       if (level < 2) {  // coarser ones are farther off than a tenth of a narrow lane, so that this does not tell its
                         // edge from another line
-        EXPECT_LE(worst.plan_m, kAsked[level].plan_m) << name << ", level " << level;
+        EXPECT_LE(worst.plan_m, kTolerances[level].plan_m) << name << ", level " << level;
       }
-      EXPECT_LE(worst.height_m, kAsked[level].height_m) << name << ", level " << level << ": " << worst.where;
+      EXPECT_LE(worst.height_m, kTolerances[level].height_m) << name << ", level " << level << ": " << worst.where;
       EXPECT_GT(worst.asked, 100u) << name;
       std::printf("%s, level %zu: %zu places, worst %.2f mm in plan, %.2f mm in height\n", name.c_str(), level,
                   worst.asked, 1e3 * worst.plan_m, 1e3 * worst.height_m);

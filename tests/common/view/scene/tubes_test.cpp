@@ -37,7 +37,7 @@ std::vector<Mesh> DrawnAt(const road::World& world, int level) {
   const StaticObjects things(world);
   std::vector<Mesh> all;
   for (const auto& [key, tile] : things.tiles()) {
-    for (Mesh& mesh : DrawThings(tile, key, level).meshes) all.push_back(std::move(mesh));
+    for (Mesh& mesh : DrawStaticObjects(tile, key, level).meshes) all.push_back(std::move(mesh));
   }
   return all;
 }

@@ -96,7 +96,7 @@ TEST_F(AWindow, ClosingIsToldAndCanBeRefused) {
   event.type = SDL_QUIT;
   SDL_PushEvent(&event);
   EXPECT_FALSE(window_->BeginFrame(0));
-  window_->AskToStay();
+  window_->StayOpen();
   Show([] {});
   EXPECT_TRUE(open_);
 }

@@ -78,12 +78,12 @@ TEST(Objects, AreTurnedRepeatedAndOfTheirSize) {
                "      - {type: guard_rail, side: right, from_s_m: 30, to_s_m: 80}\n"));
   const network::Furniture placed = network::PlaceFurniture(*design.network);
   ASSERT_EQ(placed.things.size(), 4u);
-  const network::Placed& house = placed.things[0];
-  EXPECT_EQ(house.object->name, "mill");
-  EXPECT_NEAR(Turned(house.heading_rad), -0.5 * geometry::kPi, 1e-12);
-  EXPECT_NEAR(house.t_m, 4.5 + 15.0, 1e-12);
-  EXPECT_EQ(house.z_offset_m, 0.5);
-  EXPECT_TRUE(house.length_m == 12.0 && house.width_m == 8.0 && house.height_m == 6.0);
+  const network::Placed& building = placed.things[0];
+  EXPECT_EQ(building.object->name, "mill");
+  EXPECT_NEAR(Turned(building.heading_rad), -0.5 * geometry::kPi, 1e-12);
+  EXPECT_NEAR(building.t_m, 4.5 + 15.0, 1e-12);
+  EXPECT_EQ(building.z_offset_m, 0.5);
+  EXPECT_TRUE(building.length_m == 12.0 && building.width_m == 8.0 && building.height_m == 6.0);
   for (std::size_t i = 1; i < 4; ++i) {
     EXPECT_NEAR(placed.things[i].s_m, 10.0 + 20.0 * static_cast<double>(i - 1), 1e-12);
     EXPECT_TRUE(placed.things[i].t_m == -14.0 && placed.things[i].height_m == 9.0 && placed.things[i].radius_m == 2.0);

@@ -271,9 +271,9 @@ TEST(Start, LiesOutsideOfJunctionsUnlessItIsSaid) {
     EXPECT_TRUE(file.ok());
     (void)file.value().root().Text("rodeira");
     const config::Map map = file.value().root().OptionalChild("start");
-    StartSpec wish;
-    if (map.Has("s_m")) wish.s_m = map.Number("s_m");
-    Design design = ReadDesign(file.value(), kFriction, "made", "", wish, map);
+    StartSpec start_spec;
+    if (map.Has("s_m")) start_spec.s_m = map.Number("s_m");
+    Design design = ReadDesign(file.value(), kFriction, "made", "", start_spec, map);
     return std::pair(std::move(design), file.value().Problems());
   };
   const auto [design, problems] = text_of("");

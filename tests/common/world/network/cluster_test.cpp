@@ -21,8 +21,8 @@ using opendrive::RoadText;
 bool SameBits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 // Whether `count` points about a middle were answered together, and then as they are alone.
-bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double size_m, std::size_t count,
-                 std::uint64_t seed) {
+bool QueryTogether(const Network& network, const Eigen::Vector2d& middle, double size_m, std::size_t count,
+                   std::uint64_t seed) {
   Cluster cluster;
   cluster.feet.count = count;
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ double ShareTogether(const Network& network, double size_m, double wide_m, int c
     const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
     const geometry::PlanPoint at = road.axis().Evaluate(s);
     const Eigen::Vector2d middle = at.p_W + base::RandomUniform({i, 3}, -wide_m, wide_m) * at.left_W();
-    together += AskTogether(network, middle, size_m, 2 + base::RandomBits({i, 4}) % (Cluster::kMost - 1), i);
+    together += QueryTogether(network, middle, size_m, 2 + base::RandomBits({i, 4}) % (Cluster::kMost - 1), i);
     if (testing::Test::HasFailure()) break;
   }
   return static_cast<double>(together) / clusters;
@@ -112,8 +112,8 @@ TEST(Cluster, IsItsPointsOnBankedRoads) {
       EXPECT_GT(ShareTogether(*import.value().network, 0.3, 3.0, 600), 0.7) << bank << grade;
       for (std::uint64_t i = 0; i < 200; ++i) {  // where another bank begins
         const double s = 60.0 + base::RandomUniform({i, 5}, -0.5, 0.5), t = base::RandomUniform({i, 6}, -3.0, 3.0);
-        AskTogether(*import.value().network, import.value().network->roads()[0].Surface(s, t).p_W.head<2>(), 0.2, 60,
-                    i);
+        QueryTogether(*import.value().network, import.value().network->roads()[0].Surface(s, t).p_W.head<2>(), 0.2, 60,
+                      i);
       }
       if (HasFailure()) return;
     }
@@ -146,7 +146,7 @@ TEST(Cluster, IsItsPointsWhereAPanelEnds) {
                      t = base::RandomUniform({i, panel.detail, 2}, -13.0, 13.0);
         if (s < 0.0 || s > on.length_m()) continue;
         ++asked;
-        together += AskTogether(network, on.Surface(s, t).p_W.head<2>(), 0.25, 20, i);
+        together += QueryTogether(network, on.Surface(s, t).p_W.head<2>(), 0.25, 20, i);
         if (HasFailure()) FAIL() << "s " << s << " t " << t << lateral;
       }
     }
@@ -167,7 +167,7 @@ TEST(Cluster, IsItsPointsAtAKink) {
   int together = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Eigen::Vector2d middle(base::RandomUniform({i, 1}, 40.0, 60.0), base::RandomUniform({i, 2}, -3.0, 13.0));
-    together += AskTogether(network, middle, 0.25, 20, i);
+    together += QueryTogether(network, middle, 0.25, 20, i);
     if (HasFailure()) FAIL() << middle.transpose();
   }
   EXPECT_GT(together, 100);
@@ -188,15 +188,15 @@ TEST(Cluster, IsItsPointsOnRealFiles) {
 
 TEST(Cluster, WhatIsFarApartOrNowhereIsLeftToEachPoint) {
   const auto network = MustRead(Document(RoadText().Text()));
-  EXPECT_TRUE(AskTogether(*network, {40.0, 1.5}, 0.3, 100, 1));
-  EXPECT_TRUE(AskTogether(*network, {40.0, 0.0}, 0.3, 100, 1));    // two lanes
-  EXPECT_FALSE(AskTogether(*network, {40.0, 0.0}, 3.0, 100, 1));   // as wide as the road
-  EXPECT_FALSE(AskTogether(*network, {40.0, 3.5}, 0.3, 100, 1));   // over its edge
-  EXPECT_FALSE(AskTogether(*network, {0.0, 1.5}, 0.3, 100, 1));    // over its end
-  EXPECT_FALSE(AskTogether(*network, {40.0, 20.0}, 0.3, 100, 1));  // beside it
-  EXPECT_FALSE(AskTogether(*network, {1e9, 1.5}, 0.3, 100, 1));
-  EXPECT_FALSE(AskTogether(*network, {std::nan(""), 1.5}, 0.3, 100, 1));
-  EXPECT_FALSE(AskTogether(*network, {40.0, std::numeric_limits<double>::infinity()}, 0.3, 100, 1));
+  EXPECT_TRUE(QueryTogether(*network, {40.0, 1.5}, 0.3, 100, 1));
+  EXPECT_TRUE(QueryTogether(*network, {40.0, 0.0}, 0.3, 100, 1));    // two lanes
+  EXPECT_FALSE(QueryTogether(*network, {40.0, 0.0}, 3.0, 100, 1));   // as wide as the road
+  EXPECT_FALSE(QueryTogether(*network, {40.0, 3.5}, 0.3, 100, 1));   // over its edge
+  EXPECT_FALSE(QueryTogether(*network, {0.0, 1.5}, 0.3, 100, 1));    // over its end
+  EXPECT_FALSE(QueryTogether(*network, {40.0, 20.0}, 0.3, 100, 1));  // beside it
+  EXPECT_FALSE(QueryTogether(*network, {1e9, 1.5}, 0.3, 100, 1));
+  EXPECT_FALSE(QueryTogether(*network, {std::nan(""), 1.5}, 0.3, 100, 1));
+  EXPECT_FALSE(QueryTogether(*network, {40.0, std::numeric_limits<double>::infinity()}, 0.3, 100, 1));
 }
 
 }  // namespace

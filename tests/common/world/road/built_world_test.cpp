@@ -161,7 +161,7 @@ TEST(BuiltWorld, RoadAndGroundMeetAtEveryEdge) {
   EXPECT_GT(edges, 1000);
 }
 
-TEST(BuiltWorld, JunctionsMeetTheGroundAndTheRoads) {
+TEST(BuiltWorld, JunctionsConformToGroundAndRoads) {
   const World& world = *Hilly();
   const network::Junction& junction = world.network()->junctions()[0];
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();

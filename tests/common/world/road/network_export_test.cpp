@@ -185,8 +185,8 @@ std::string Said(const network::Object& o) {
   }
   return text;
 }
-template <class Things>
-std::vector<std::string> AllSaid(const Things& things) {
+template <class Container>
+std::vector<std::string> AllSaid(const Container& things) {
   std::vector<std::string> said;
   for (const auto& thing : things) said.push_back(Said(thing));
   return said;

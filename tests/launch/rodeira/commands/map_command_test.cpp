@@ -23,12 +23,12 @@ namespace {
 
 using testing::HasSubstr;
 
-Said Asked(const MapOptions& options) { return SaidBy(MapCommand, options); }
+Said RunWith(const MapOptions& options) { return SaidBy(MapCommand, options); }
 
 const std::string kCrossing = SourceDir() + "/configs/maps/crossing.motors";
 
 TEST(MapCommand, ChecksAMap) {
-  const Said said = Asked({"check", kCrossing, ""});
+  const Said said = RunWith({"check", kCrossing, ""});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors, "");
   EXPECT_THAT(said.out, HasSubstr("lanes        20: 4 start, 4 end\n"));
@@ -40,15 +40,15 @@ TEST(MapCommand, NamesWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "a.motors";
   ASSERT_TRUE(base::WriteWhole(file, traffic_map::kGoodLines + "p,9,0,0,0,1,0,0,2,0,0,3,0,0\ns,10\ni\n").ok());
-  Said said = Asked({"check", file, ""});
+  Said said = RunWith({"check", file, ""});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: warning: curve 9: no lane uses it\n");
   ASSERT_TRUE(base::WriteWhole(file, traffic_map::kGoodLines + "c,1,7,False\ns,10\ni\n").ok());
-  said = Asked({"check", file, ""});
+  said = RunWith({"check", file, ""});
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
   EXPECT_THAT(said.out, HasSubstr("found        1 errors, 0 warnings\n"));
-  said = Asked({"convert", file, folder.path() / "a.svg"});
+  said = RunWith({"convert", file, folder.path() / "a.svg"});
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: " + file + ":12: connection 1 to 7: lane 7 does not exist\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
@@ -59,13 +59,13 @@ TEST(MapCommand, SaysThatFlowsStayBehind) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.motors";
   std::filesystem::copy(kCrossing, file);
-  ASSERT_EQ(Asked({"convert", file, folder.path() / "a.yaml"}).errors, "");
+  ASSERT_EQ(RunWith({"convert", file, folder.path() / "a.yaml"}).errors, "");
   const auto map = traffic_map::LoadLaneMap(file).value();
   ASSERT_TRUE(base::WriteWhole(folder.path() / "a.motors.yaml",
                                "rodeira: motors/1\nflows_vehph:\n  " +
                                    std::to_string(map.lanes[map.start_lanes.front()].id) + ": 300\n")
                   .ok());
-  const Said said = Asked({"convert", file, folder.path() / "a.yaml"});
+  const Said said = RunWith({"convert", file, folder.path() / "a.yaml"});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors,
             "rodeira: warning: the flows beside a.motors are not in it: a world has none; a file of traffic settings "
@@ -81,7 +81,7 @@ TEST(MapCommand, SaysThatModesElsewhereThanAtTheEdgeAreItsOwn) {
   ASSERT_NE(text.find(lane + "0"), std::string::npos);
   text[text.find(lane) + lane.size()] = '1';
   ASSERT_TRUE(base::WriteWhole(file, text).ok());
-  const Said said = Asked({"convert", file, out});
+  const Said said = RunWith({"convert", file, out});
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(said.errors,
             "rodeira: warning: vehicles begin or end elsewhere than at the edge of a.motors; OpenDRIVE has no word for "
@@ -98,7 +98,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   std::filesystem::copy(lights, file);
   std::filesystem::copy(lights + ".yaml", beside);
   const std::string good = base::ReadText(beside).value();
-  ASSERT_EQ(Asked({"check", file, ""}).status, 0);
+  ASSERT_EQ(RunWith({"check", file, ""}).status, 0);
   // Start lanes of all four arms green at once.
   std::string lanes;
   const auto map = traffic_map::LoadLaneMap(file).value();
@@ -107,7 +107,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases: [{green: [" +
                                            lanes + "], for_s: 20}, {green: [], for_s: 10}]\n")
                   .ok());
-  const Said said = Asked({"check", file, ""});
+  const Said said = RunWith({"check", file, ""});
   EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.errors, testing::ContainsRegex(
                                "a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
@@ -120,7 +120,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   const auto line =
       std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.find("lights:")), '\n') + 4;
   const std::string there = "a.motors.yaml:" + std::to_string(line) + ": lights: the lights ";
-  EXPECT_THAT(Asked({"check", file, ""}).errors, HasSubstr(there));
+  EXPECT_THAT(RunWith({"check", file, ""}).errors, HasSubstr(there));
   TrafficOptions drive;
   drive.map = file;
   const Said driven = SaidBy(TrafficRun, drive);
@@ -132,7 +132,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   sharp.replace(sharp.find("36,1,-1.5,41.5,1,4,41.5,1,10"), 28, "32,1,-1.5,33,1,0,33,1,2");
   std::filesystem::remove(beside);
   ASSERT_TRUE(base::WriteWhole(file, sharp + "s,10\ni\n").ok());
-  const Said bend = Asked({"check", file, ""});
+  const Said bend = RunWith({"check", file, ""});
   EXPECT_EQ(bend.status, 2) << bend.errors;
   EXPECT_THAT(bend.errors, HasSubstr("sharply"));
 }
@@ -140,14 +140,14 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
 TEST(MapCommand, Converts) {
   const TemporaryFolder folder;
   const std::string svg = folder.path() / "a.svg", drive = folder.path() / "a.xodr";
-  EXPECT_EQ(Asked({"convert", kCrossing, svg}).out, "wrote " + svg + "\n");
+  EXPECT_EQ(RunWith({"convert", kCrossing, svg}).out, "wrote " + svg + "\n");
   EXPECT_THAT(base::ReadText(svg).value(), testing::StartsWith("<svg"));
-  const Said said = Asked({"convert", kCrossing, drive});
+  const Said said = RunWith({"convert", kCrossing, drive});
   EXPECT_EQ(said.status, 0);
   EXPECT_THAT(said.out, HasSubstr("20 roads"));
   EXPECT_THAT(said.out, HasSubstr("mm (borders)"));
   EXPECT_THAT(base::ReadText(drive).value(), HasSubstr("<OpenDRIVE>"));
-  const Said wrong = Asked({"convert", kCrossing, folder.path() / "a.png"});
+  const Said wrong = RunWith({"convert", kCrossing, folder.path() / "a.png"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.errors,
               HasSubstr("the file's name ends with '.png'; .svg, .xodr or, for a world, .yaml was expected"));
@@ -157,7 +157,7 @@ TEST(MapCommand, Converts) {
 TEST(MapCommand, WritesAWorldOfThisProject) {
   const TemporaryFolder folder;
   const std::filesystem::path world = folder.path() / "over.yaml", roads = folder.path() / "over.xodr";
-  const Said said = Asked({"convert", SourceDir() + "/configs/maps/overpass.motors", world});
+  const Said said = RunWith({"convert", SourceDir() + "/configs/maps/overpass.motors", world});
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_THAT(said.out, testing::StartsWith("wrote " + world.string() + " and " + roads.string() + ": "));
   for (const auto& problem : road::WorldProblems(world)) ADD_FAILURE() << problem.Text();
@@ -167,9 +167,9 @@ TEST(MapCommand, WritesAWorldOfThisProject) {
   EXPECT_GE(made.value()->network()->roads().size(), 20u);
   EXPECT_THAT(said.out, HasSubstr(": " + std::to_string(made.value()->network()->roads().size()) + " roads in "));
   // The same again is no mistake; another one's file is kept.
-  EXPECT_EQ(Asked({"convert", kCrossing, world}).status, 0);
+  EXPECT_EQ(RunWith({"convert", kCrossing, world}).status, 0);
   ASSERT_TRUE(base::WriteWhole(folder.path() / "mine.xodr", "mine").ok());
-  const Said kept = Asked({"convert", kCrossing, folder.path() / "mine.yaml"});
+  const Said kept = RunWith({"convert", kCrossing, folder.path() / "mine.yaml"});
   EXPECT_EQ(kept.status, 2);
   EXPECT_THAT(kept.errors, HasSubstr("mine.xodr: this file is there already"));
   EXPECT_EQ(base::ReadText(folder.path() / "mine.xodr").value(), "mine");

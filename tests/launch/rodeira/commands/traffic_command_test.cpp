@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
+Said RunWith(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
 
 // The ramp's map with a companion of the test's.
 class TrafficCommand : public ::testing::Test {
@@ -42,7 +42,7 @@ class TrafficCommand : public ::testing::Test {
 
 TEST_F(TrafficCommand, HasAsManyAsAreAskedForWhereThereAreNoFlows) {
   options_.vehicles = 4;
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_THAT(said.out, HasSubstr("vehicles         4 on the road, 0 waiting to enter"));
   EXPECT_THAT(said.out, Not(HasSubstr("flow ")));
@@ -50,14 +50,14 @@ TEST_F(TrafficCommand, HasAsManyAsAreAskedForWhereThereAreNoFlows) {
 
 TEST_F(TrafficCommand, FlowsOfAMapBringItsVehicles) {
   Beside("rodeira: motors/1\nflows_vehph: {1: 900}\n");
-  const Said flows = Asked(options_);
+  const Said flows = RunWith(options_);
   EXPECT_EQ(flows.status, 0) << flows.errors;
   EXPECT_THAT(flows.out, HasSubstr("flow 1 "));
   EXPECT_THAT(flows.out, Not(HasSubstr("flow 2 ")));
   // The same by a file of settings, and such a file goes before the map's own.
   options_.settings =
       Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 900}\n  - {lane: \"1:-1\", vehicles_per_h: 0.001}\n");
-  const Said both = Asked(options_);
+  const Said both = RunWith(options_);
   EXPECT_EQ(both.status, 0) << both.errors;
   EXPECT_THAT(both.out, HasSubstr(fmt::format("flow {:<12}0 arrived", 2)));
   const auto first_lines = [](const std::string& out) { return out.substr(0, out.find("wall time")); };
@@ -66,7 +66,7 @@ TEST_F(TrafficCommand, FlowsOfAMapBringItsVehicles) {
 
 TEST_F(TrafficCommand, AFlowOnALaneThatIsNotThereIsRefused) {
   Beside("rodeira: motors/1\nflows_vehph: {77: 900}\n");
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.errors, HasSubstr("ramp.motors.yaml:2"));
   EXPECT_THAT(said.errors, HasSubstr("77"));
@@ -75,7 +75,7 @@ TEST_F(TrafficCommand, AFlowOnALaneThatIsNotThereIsRefused) {
 
 TEST_F(TrafficCommand, AFileWhereTablesShouldGoIsNamed) {
   options_.csv = options_.map;
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.errors, "rodeira: --csv " + options_.map + ": a file is there; a folder was expected\n");
 }

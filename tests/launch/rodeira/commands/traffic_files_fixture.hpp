@@ -23,7 +23,7 @@ class TrafficFilesTest : public testing::Test {
  protected:
   using Rows = std::vector<std::map<std::string, std::string>>;
 
-  static Said Asked(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
+  static Said RunWith(const TrafficOptions& options) { return SaidBy(TrafficRun, options); }
 
   // A table by the names in its first line.
   static Rows Table(const std::filesystem::path& file, const std::string& header) {

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   options_.csv = In("out");
   options_.duration_s = 180.0;
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
   for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "flows.csv", "trips.csv"})
     EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
@@ -162,7 +162,7 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
 TEST_F(TrafficFilesTest, IntervalsAddUpToTheTables) {
   options_.csv = In("out");
   options_.duration_s = 150.0, options_.warm_s = 30.0, options_.every_s = 50.0;
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
   std::set<std::pair<std::string, std::string>> times;
   std::map<std::string, double> in, out, way_m, longest;
@@ -201,7 +201,7 @@ TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
   for (const bool heat : {true, false}) {
     TrafficOptions options = options_;
     (heat ? options.heat : options.diagram) = In("picture.svg");
-    const Said said = Asked(options);
+    const Said said = RunWith(options);
     ASSERT_EQ(said.status, 0) << said.errors;
     EXPECT_THAT(said.out, HasSubstr("wrote            " + In("picture.svg")));
     pugi::xml_document picture;
@@ -212,18 +212,18 @@ TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
     EXPECT_GT(picture.select_nodes("//polyline").size(), heat ? 5u : 0u);
   }
   options_.heat = In("heat.tif");
-  ASSERT_EQ(Asked(options_).status, 0);
+  ASSERT_EQ(RunWith(options_).status, 0);
   EXPECT_THAT(base::ReadText(In("heat.tif")).value(), testing::StartsWith("II*"));
 }
 
 TEST_F(TrafficFilesTest, ADiagramIsOfTheLaneThatIsAskedFor) {
   options_.diagram = In("a.svg");
   options_.lane = "1:-1";
-  ASSERT_EQ(Asked(options_).status, 0);
+  ASSERT_EQ(RunWith(options_).status, 0);
   TrafficOptions other = options_;
   other.diagram = In("b.svg");
   other.lane = "2:-1";
-  ASSERT_EQ(Asked(other).status, 0);
+  ASSERT_EQ(RunWith(other).status, 0);
   EXPECT_NE(base::ReadText(In("a.svg")).value(), base::ReadText(In("b.svg")).value());
 }
 
@@ -231,7 +231,7 @@ TEST_F(TrafficFilesTest, ADiagramIsOfTheLaneThatIsAskedFor) {
 TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
   options_.fcd = In("cars.xml");
   options_.csv = In("out");
-  ASSERT_EQ(Asked(options_).status, 0);
+  ASSERT_EQ(RunWith(options_).status, 0);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_file(options_.fcd.c_str()));
   const Rows cars = Table(In("out") + "/trajectories.csv",
@@ -266,7 +266,7 @@ TEST_F(TrafficFilesTest, TripInformationIsAsSumoWritesIt) {
   constexpr double kLook_s = 0.1 + 0.006, kFastest_mps = 40.0;
   options_.tripinfo = In("trips.xml");
   options_.csv = In("out");
-  ASSERT_EQ(Asked(options_).status, 0);
+  ASSERT_EQ(RunWith(options_).status, 0);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_file(options_.tripinfo.c_str()));
   const Rows trips = Table(In("out") + "/trips.csv", kTrips);
@@ -303,7 +303,7 @@ TEST_F(TrafficFilesTest, ThePixelsOfAHeatMapCanBeChosen) {
   for (const double pixel_m : {1.0, 5.0}) {
     options_.pixel_m = pixel_m;
     options_.heat = In("heat.tif");
-    ASSERT_EQ(Asked(options_).status, 0);
+    ASSERT_EQ(RunWith(options_).status, 0);
     bytes[pixel_m] = std::filesystem::file_size(options_.heat);
   }
   EXPECT_GT(bytes[1.0], 10 * bytes[5.0]);
@@ -318,7 +318,7 @@ TEST_F(TrafficFilesTest, NamesOfRoadsAreCells) {
   options_.csv = In("out");
   options_.vehicles = 2;
   options_.duration_s = 40.0;
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
   const std::string header =
       "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"

@@ -17,25 +17,25 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST_F(TrafficFilesTest, WrongWishesForTimesAreRefused) {
+TEST_F(TrafficFilesTest, WrongTimesAreRefused) {
   options_.warm_s = 90.0;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
+  EXPECT_THAT(RunWith(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
   options_.warm_s = 0.0, options_.physics = "full", options_.step_s = 0.2;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--step: 0.2 s were given with full physics; at most 0.1 s"));
+  EXPECT_THAT(RunWith(options_).errors, HasSubstr("--step: 0.2 s were given with full physics; at most 0.1 s"));
   options_.physics.clear(), options_.step_s = 0.05, options_.every_s = 10.0;
-  EXPECT_THAT(Asked(options_).errors,
+  EXPECT_THAT(RunWith(options_).errors,
               HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
   options_.every_s = 0.0, options_.fcd = In("cars.csv");
-  const Said said = Asked(options_);
+  const Said said = RunWith(options_);
   EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.errors, HasSubstr("a file on .xml was expected"));
   options_.fcd.clear(), options_.heat = In("a.svg"), options_.pixel_m = 2.0;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--pixel: a pixel of 2 m was given"));
+  EXPECT_THAT(RunWith(options_).errors, HasSubstr("--pixel: a pixel of 2 m was given"));
 }
 
-TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
+TEST_F(TrafficFilesTest, AnImpossibleOptionIsRefusedBeforeAnythingDrives) {
   struct Case {
-    std::function<void(TrafficOptions&)> wish;
+    std::function<void(TrafficOptions&)> change;
     int status;
     std::string sentence;
   };
@@ -67,8 +67,8 @@ TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
            {[&](TrafficOptions& o) { o.map = In("file"); }, 2, In("file")},
        }) {
     TrafficOptions options = options_;
-    c.wish(options);
-    const Said said = Asked(options);
+    c.change(options);
+    const Said said = RunWith(options);
     EXPECT_EQ(said.status, c.status) << c.sentence;
     EXPECT_THAT(said.errors, testing::StartsWith("rodeira: " + c.sentence));
     EXPECT_EQ(said.out, "") << c.sentence;
@@ -90,7 +90,7 @@ TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
   const auto says = [&](const std::string& text, const std::string& companion, const std::string& sentence) {
     ASSERT_TRUE(base::WriteWhole(options_.map, text).ok());
     ASSERT_TRUE(base::WriteWhole(options_.map + ".yaml", companion).ok());
-    const Said said = Asked(options_);
+    const Said said = RunWith(options_);
     EXPECT_EQ(said.status, 2) << sentence;
     EXPECT_THAT(said.errors, testing::AllOf(testing::StartsWith("rodeira: "), HasSubstr(sentence)));
     EXPECT_EQ(said.out, "") << sentence;

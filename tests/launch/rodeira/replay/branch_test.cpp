@@ -31,14 +31,14 @@ using BranchTest = ReplayTest;
 
 TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
   const std::string file = Drive();
-  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
-  const auto outcome = Branch(wish);
+  BranchSpec spec{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_FALSE(outcome.value().difference.has_value());
   EXPECT_EQ(outcome.value().recomputed_from, 1000);
   EXPECT_TRUE(outcome.value().taken_over.empty());
   auto a = replay::RecordedRun::Open(file);
-  auto b = replay::RecordedRun::Open(wish.recording);
+  auto b = replay::RecordedRun::Open(spec.recording);
   ASSERT_TRUE(b.ok()) << b.error().Text();
   EXPECT_EQ(b.value().branched_at(), 1500);
   auto of_a = a.value().Samples();
@@ -53,7 +53,7 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
     ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
   }
   EXPECT_EQ(count, 2u * 3001u + 301u + 8u);
-  const auto reader = record::McapReader::Open(wish.recording);
+  const auto reader = record::McapReader::Open(spec.recording);
   const auto end = reader.value().FindMetadata("rodeira.end").value()->entries;
   EXPECT_EQ(end.at("samples"), std::to_string(count)) << "the parent's are counted too";
   EXPECT_EQ(end.at("missing"), "0");
@@ -63,41 +63,41 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
 TEST_F(BranchTest, ABranchStoppedAtOnceSaysSo) {
   const std::string file = Drive();
   for (const lockstep::Step at : {0, 1500}) {
-    BranchSpec wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+    BranchSpec spec{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
     bool is_branching =
         false;  // the parent has been computed up to there, and the operator is asked for the first time
-    wish.next_command = [&] {
+    spec.next_command = [&] {
       is_branching = true;
-      return std::optional<lockstep::Asked>();
+      return std::optional<lockstep::OperatorCommand>();
     };
-    wish.stop_requested = [&] { return is_branching; };
-    const auto outcome = Branch(wish);
+    spec.stop_requested = [&] { return is_branching; };
+    const auto outcome = Branch(spec);
     ASSERT_FALSE(outcome.ok());
     EXPECT_EQ(outcome.error().exit_status(), 1);
     EXPECT_THAT(outcome.error().Text(), HasSubstr("interrupted at step ")) << at;
-    EXPECT_FALSE(std::filesystem::exists(wish.recording));
+    EXPECT_FALSE(std::filesystem::exists(spec.recording));
   }
 }
 
 // Marks and wall times are those of the parent up to the branch's first step, and the branch's own from there on.
 TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfParentAndBranch) {
   const std::string file = Drive();
-  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  BranchSpec spec{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
   int asked = 0;
   std::string marked;
-  wish.next_command = [&]() -> std::optional<lockstep::Asked> {
+  spec.next_command = [&]() -> std::optional<lockstep::OperatorCommand> {
     // The mark is sent again until the branch has begun. The run reads commands until none comes.
     if (++asked % 2 == 0 || marked.starts_with("marked step ")) return std::nullopt;
     lockstep::Command mark;
     mark.kind = lockstep::Command::Kind::kMark;
     mark.text = "hello";
-    return lockstep::Asked{
+    return lockstep::OperatorCommand{
         mark, [&](const base::Result<std::string>& done) { marked = done ? done.value() : done.error().Text(); }};
   };
-  wish.pace = 2;
-  ASSERT_TRUE(Branch(wish).ok());
+  spec.pace = 2;
+  ASSERT_TRUE(Branch(spec).ok());
   const auto of_parent = system_test::MessagesOf<msg::WallTime>(file, idl::topics::kWallTime);
-  const auto of_branch = system_test::MessagesOf<msg::WallTime>(wish.recording, idl::topics::kWallTime);
+  const auto of_branch = system_test::MessagesOf<msg::WallTime>(spec.recording, idl::topics::kWallTime);
   std::size_t same = 0;
   while (same < of_parent.size() && of_parent[same].after_step() < 1500) ++same;
   ASSERT_GT(same, 0u);
@@ -110,9 +110,9 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfParentAndBranch) {
   }
   for (std::size_t i = same; i < of_branch.size(); ++i) EXPECT_GE(of_branch[i].through_step(), 1500) << i;
   EXPECT_EQ(of_branch.back().through_step(), 3000);
-  EXPECT_EQ(Audit(record::McapReader::Open(wish.recording).value()).steps_without_wall_time, 0);
+  EXPECT_EQ(Audit(record::McapReader::Open(spec.recording).value()).steps_without_wall_time, 0);
   std::string kinds;
-  for (const auto& remark : system_test::MessagesOf<msg::Remark>(wish.recording, idl::topics::kRemarks)) {
+  for (const auto& remark : system_test::MessagesOf<msg::Remark>(spec.recording, idl::topics::kRemarks)) {
     kinds += remark.kind() + " ";
     if (remark.kind() == "mark") {
       EXPECT_EQ(remark.text(), "hello");
@@ -138,24 +138,24 @@ TEST_F(BranchTest, ABranchLastsAsLongAsItsChangesSayAndTellsWhatItsParentAnswers
 TEST_F(BranchTest, ABranchTouchesNoOtherFile) {
   const std::string file = Drive();
   const auto precious = folder_.Write("branch.mcap.part", "precious");
-  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
-  ASSERT_TRUE(Branch(wish).ok());
+  BranchSpec spec{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  ASSERT_TRUE(Branch(spec).ok());
   EXPECT_EQ(base::ReadText(precious).value(), "precious");
 }
 
 TEST_F(BranchTest, ABranchHasItsParentsPastAndItsOwnFuture) {
   const std::string file = Drive();
   const auto script = folder_.Write("brake.csv", "time_s,steering_wheel_rad,throttle,brake\n0,0,0,1\n");
-  BranchSpec wish{file,
+  BranchSpec spec{file,
                   2000,
                   {{"nodes.driver.config.script", "\"" + script.string() + "\""}},
                   4000,
                   (folder_.path() / "branch.mcap").string()};
-  const auto outcome = Branch(wish);
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().last_step, 4000);
   auto parent = replay::RecordedRun::Open(file);
-  auto branch = replay::RecordedRun::Open(wish.recording);
+  auto branch = replay::RecordedRun::Open(spec.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
   auto of_parent = parent.value().Samples();
   auto of_branch = branch.value().Samples();
@@ -179,8 +179,8 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
   const std::string file = Drive();
   const std::string first = (folder_.path() / "first.mcap").string(),
                     second = (folder_.path() / "second.mcap").string();
-  BranchSpec wish{file, 0, {}, std::nullopt, first};
-  const auto outcome = Branch(wish);
+  BranchSpec spec{file, 0, {}, std::nullopt, first};
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(first);
   auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
@@ -190,8 +190,8 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
     if (!x.value()) break;
     ASSERT_EQ(*x.value()->payload, *y.value()->payload) << "at step " << x.value()->valid();
   }
-  wish = {file, 1500, {}, std::nullopt, second};
-  ASSERT_TRUE(Branch(wish).ok());
+  spec = {file, 1500, {}, std::nullopt, second};
+  ASSERT_TRUE(Branch(spec).ok());
   const std::string third = (folder_.path() / "third.mcap").string();
   const auto refusal = [&](lockstep::Step at) {
     const auto refused = Branch({second, at, {}, std::nullopt, third});
@@ -211,9 +211,9 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
 TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   const std::string file = Drive(4.0);
   const std::string other = SourceDir() + "/configs/vehicles/prototype.yaml";
-  const BranchSpec wish{
+  const BranchSpec spec{
       file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
-  const auto outcome = Branch(wish);
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().taken_over, std::vector<std::string>{"ego"});
   // A word does the same where the car's file names the other one.
@@ -223,8 +223,8 @@ TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   ASSERT_TRUE(worded.ok()) << worded.error().Text();
   EXPECT_EQ(worded.value().taken_over, std::vector<std::string>{"ego"});
   EXPECT_EQ(CarAt(replay::RecordedRun::Open(by_word.recording).value(), 4000),
-            CarAt(replay::RecordedRun::Open(wish.recording).value(), 4000));
-  const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
+            CarAt(replay::RecordedRun::Open(spec.recording).value(), 4000));
+  const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(spec.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
   const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000),
              default_value = CarAt(parent.value(), 4000);
@@ -242,17 +242,17 @@ TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
 TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
   const std::string file = Record("traffic.mcap", LaunchFile("demo.yaml"),
                                   {"--for", "4", "--headless", "--set", "nodes.view.config.frames=~"});
-  const BranchSpec wish{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
-  const auto outcome = Branch(wish);
+  const BranchSpec spec{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
+  const auto outcome = Branch(spec);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
-  const auto branch = replay::RecordedRun::Open(wish.recording);
+  const auto branch = replay::RecordedRun::Open(spec.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
   EXPECT_EQ(branch.value().launch().seed(), 77u);
   const auto verdict = Verify(branch.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
   // Another number of vehicles is refused: their states are the parent's.
-  const auto more = Branch({file, 2000, {{"nodes.traffic.config.vehicles", "21"}}, 2100, wish.recording + "2"});
+  const auto more = Branch({file, 2000, {{"nodes.traffic.config.vehicles", "21"}}, 2100, spec.recording + "2"});
   ASSERT_FALSE(more.ok());
   EXPECT_THAT(more.error(), IsError("run.cannot_restore", "'traffic' … nodes.traffic.config.vehicles"));
 }
@@ -263,14 +263,14 @@ TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
       Record("without.mcap", LaunchFile("empty.yaml"),
              {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
   for (const lockstep::Step at : {0, 700}) {
-    const BranchSpec wish{
+    const BranchSpec spec{
         file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
-    const auto outcome = Branch(wish);
+    const auto outcome = Branch(spec);
     ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
     EXPECT_EQ(outcome.value().recomputed_from, 0);
     EXPECT_EQ(outcome.value().without_state, std::vector<std::string>{"c"});
     EXPECT_TRUE(outcome.value().taken_over.empty());
-    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
+    const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(spec.recording);
     ASSERT_TRUE(branch.ok()) << branch.error().Text();
     auto of_a = parent.value().Samples(), of_b = branch.value().Samples();
     std::size_t count = 0;

@@ -94,10 +94,10 @@ class RecordingFuzz : public ::testing::Test {
   static base::Result<VerifyResult> VerifyFile(const std::string& file, Step from) {
     const auto run = replay::RecordedRun::Open(file);
     if (!run) return run.error();
-    Recomputation wish;
-    wish.from = from;
-    wish.last_step = std::min(run.value().last_step(), kMaxSteps);
-    auto done = Recompute(run.value(), wish);
+    Recomputation spec;
+    spec.from = from;
+    spec.last_step = std::min(run.value().last_step(), kMaxSteps);
+    auto done = Recompute(run.value(), spec);
     if (!done) return done.error();
     return std::move(done.value().verdict);
   }

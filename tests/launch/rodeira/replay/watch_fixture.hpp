@@ -94,12 +94,12 @@ class WatchTest : public ::testing::Test {
 
   std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
   std::string Made(const std::string& launch = kLaunch, const std::function<void(record::McapWriter&)>& more = {}) {
-    replay::MadeRecording wish;
-    wish.launch_text = launch;
-    wish.last_step = kLast;
-    wish.payload = Payload;
-    wish.more = more;
-    replay::Make(wish, Path("made.mcap"));
+    replay::MadeRecording spec;
+    spec.launch_text = launch;
+    spec.last_step = kLast;
+    spec.payload = Payload;
+    spec.more = more;
+    replay::Make(spec, Path("made.mcap"));
     return Path("made.mcap");
   }
   static RecordedMoments MomentsOf(const replay::RecordedRun& run) {

@@ -64,7 +64,7 @@ TEST_F(WatchTest, WhatDriversDoHoldsUntilItIsSaidAgain) {
   }
 }
 
-TEST_F(WatchTest, TheRunsEndIsAPicture) {
+TEST_F(WatchTest, TheLastStepIsAPicture) {
   const auto run = replay::RecordedRun::Open(Made());
   RecordedMoments moments = MomentsOf(run.value());
   EXPECT_TRUE(Same(moments.At(kLast * 1'000'000).value(), moments.Exactly(kLast).value()));
@@ -98,11 +98,11 @@ TEST_F(WatchTest, LooksAsTheRecordedViewDid) {
   EXPECT_FALSE(seen.value().settings.instruments);
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().sources.size(), 4u) << "a car, traffic, its details and lights, no hands";
-  WatchOptions wishes;
-  wishes.camera = "chase";
-  wishes.size = "800x600";
-  wishes.follow = "ego";
-  const auto other = LookAt(run.value(), wishes);
+  WatchOptions specs;
+  specs.camera = "chase";
+  specs.size = "800x600";
+  specs.follow = "ego";
+  const auto other = LookAt(run.value(), specs);
   ASSERT_TRUE(other.ok()) << other.error().Text();
   EXPECT_EQ(other.value().settings.camera, scene::CameraKind::kChase);
   EXPECT_EQ(other.value().settings.height_px, 600);

@@ -33,7 +33,7 @@ class StartWheel : public StartHands {
   void Rest() {
     for (int i = 0; i < 60; ++i) Frame();
   }
-  int Asked() const { return start_->wheel().wizard() == nullptr ? 0 : start_->wheel().wizard()->number(); }
+  int QuestionNumber() const { return start_->wheel().wizard() == nullptr ? 0 : start_->wheel().wizard()->number(); }
 
   std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
 };
@@ -45,7 +45,7 @@ TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {
   Keep("start_window.png");
   ASSERT_TRUE(Click("set up a steering wheel"));
   ASSERT_TRUE(start_->wheel().open()) << start_->wheel().said();
-  EXPECT_EQ(Asked(), 1);
+  EXPECT_EQ(QuestionNumber(), 1);
   Frame();
   Move(wheel, 0, 0, -32000);
   const window::Image left = Frame();
@@ -54,20 +54,20 @@ TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {
   Keep("wheel_setup.png");
   Move(wheel, 0, 32000, 0);
   Rest();
-  EXPECT_EQ(Asked(), 2);
+  EXPECT_EQ(QuestionNumber(), 2);
   Move(wheel, 0, 0, 20000);
   Move(wheel, 0, 20000, 0);
   Rest();
-  EXPECT_EQ(Asked(), 2);
+  EXPECT_EQ(QuestionNumber(), 2);
   EXPECT_THAT(start_->wheel().wizard()->remark(), Names("steering wheel … throttle"));
   Move(wheel, 2, 32767, -32768);
   Move(wheel, 2, -32768, 32767);
   Rest();
-  EXPECT_EQ(Asked(), 3);
+  EXPECT_EQ(QuestionNumber(), 3);
   Move(wheel, 3, 32767, -32768);
   Move(wheel, 3, -32768, 32767);
   Rest();
-  EXPECT_EQ(Asked(), 4);
+  EXPECT_EQ(QuestionNumber(), 4);
   for (const int button : {1, 4, 5, 6, 7}) {  // there is no clutch; then up and down, camera and pause
     wheel.Button(button, true);
     Frame();

@@ -316,7 +316,7 @@ TEST_F(InTheHeadset, InAWindowOfX11) {
 
 // The view's own thread: frames are shown as long as the run goes on, without a display too.
 TEST_F(InTheHeadset, ARunIsShownInIt) {
-  settings_.window = WindowWish::kNever;
+  settings_.window = WindowMode::kNever;
   auto render_thread = RenderThread::Open(settings_, world_);
   ASSERT_TRUE(render_thread.ok()) << render_thread.error().Text();
   ASSERT_NE(render_thread.value(), nullptr);
@@ -335,7 +335,7 @@ TEST_F(InTheHeadset, ARunIsShownInIt) {
 }
 
 TEST_F(InTheHeadset, WithoutOneAndWithoutAWindowNothingIsDrawn) {
-  settings_.window = WindowWish::kNever;
+  settings_.window = WindowMode::kNever;
   Fake().plugged_in = false;
   testing::internal::CaptureStderr();
   auto render_thread = RenderThread::Open(settings_, world_);

@@ -4,7 +4,7 @@
 
 #include "common/world/traffic_map/check.hpp"
 #include "tests/names.hpp"
-#include "tests/nodes/editor/desk_fixture.hpp"
+#include "tests/nodes/editor/editor_app_fixture.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -106,7 +106,7 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   work().traffic.vehicles = 4;
   Press(SDL_SCANCODE_SPACE);
   work().traffic.pace = 4.0f;
-  for (int i = 0; i < 100; ++i) desk_->Frame(0);
+  for (int i = 0; i < 100; ++i) app_->Frame(0);
   ASSERT_TRUE(work().traffic.preview);
   EXPECT_GT(work().traffic.preview->time_s(), 4.0);
   EXPECT_FALSE(work().traffic.heat.empty());
@@ -133,7 +133,7 @@ TEST_F(ADesk, PanAndZoomHoldThePlane) {
   EXPECT_LT((work().view.ToWorld({700.0 - kLeft_px, 350.0 - kTop_px}) - held).norm(), 1e-6);
   const double before = work().view.middle_W.x();
   pushed_input::Key(SDL_SCANCODE_D, true);
-  for (int i = 0; i < 30; ++i) desk_->Frame(0);
+  for (int i = 0; i < 30; ++i) app_->Frame(0);
   pushed_input::Key(SDL_SCANCODE_D, false);
   Show();
   EXPECT_GT(work().view.middle_W.x(), before);
@@ -163,7 +163,7 @@ TEST_F(ADesk, ATemplateIsPlacedTurnedAndDrivenOn) {
   Press(SDL_SCANCODE_SPACE);
   ASSERT_TRUE(work().traffic.preview) << Said();
   work().traffic.pace = 8.0f;
-  for (int i = 0; i < 60; ++i) desk_->Frame(0);
+  for (int i = 0; i < 60; ++i) app_->Frame(0);
   Keep("editor_roundabout.png");
   // Edited: it pauses, and begins anew when asked.
   Press(SDL_SCANCODE_C);
@@ -235,7 +235,7 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
   // Of the colour that handles have.
   const auto yellow = [&] {
     window::Image seen;
-    desk_->Frame(0, &seen);
+    app_->Frame(0, &seen);
     int count = 0;
     for (std::size_t i = 0; i + 2 < seen.rgb.size(); i += 3)
       count += seen.rgb[i] == 255 && seen.rgb[i + 1] == 220 && seen.rgb[i + 2] == 90 ? 1 : 0;
@@ -245,12 +245,12 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
   window::Image with, without;
   Press(SDL_SCANCODE_H);
   EXPECT_EQ(yellow(), 0);
-  desk_->Frame(0, &with);
+  app_->Frame(0, &with);
   Press(SDL_SCANCODE_I);
-  desk_->Frame(0, &without);
+  app_->Frame(0, &without);
   EXPECT_NE(with, without);
   Press(SDL_SCANCODE_O);
-  desk_->Frame(0, &with);
+  app_->Frame(0, &with);
   EXPECT_NE(with, without);
   // A handle that is not seen is not taken: the ground is dragged.
   const std::string before = editor::BytesOf(document());
@@ -270,7 +270,7 @@ TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
   const auto white = [&](double x_m, double y_m) {
     work().view.middle_W = {x_m, 0.0};
     window::Image seen;
-    desk_->Frame(0, &seen);
+    app_->Frame(0, &seen);
     const Eigen::Vector2i at = On(x_m, y_m);
     const std::uint8_t* pixel = seen.At(at.x(), at.y());
     return pixel[0] > 240 && pixel[1] > 240 && pixel[2] > 240;
@@ -319,12 +319,12 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
 // By default every ten seconds.
 TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
   Press(SDL_SCANCODE_C);
-  desk_->KeepEvery(0.5);
-  for (int i = 0; i < 40; ++i) desk_->Frame(0);
+  app_->KeepEvery(0.5);
+  for (int i = 0; i < 40; ++i) app_->Frame(0);
   auto other = editor::Keeper::Make(At("kept"));
   ASSERT_TRUE(other.ok());
   EXPECT_TRUE(other.value().Found().empty()) << "its editor lives";
-  desk_.reset();
+  app_.reset();
   const auto found = other.value().Found();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(editor::Keeper::Restore(found[0]).value().document.map.curves.size(), 1u);

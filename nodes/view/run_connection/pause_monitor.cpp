@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/view/run_connection/standing.hpp"
+#include "nodes/view/run_connection/pause_monitor.hpp"
 
 #include <string_view>
 
@@ -11,25 +11,25 @@ constexpr const char* kKeys = "\nspace goes on, return is one step";
 
 }  // namespace
 
-bool Standing::Ask(const char* command) {
-  if (desk_ != nullptr) desk_->Ask(command);
-  return desk_ != nullptr;
+bool PauseMonitor::Send(const char* command) {
+  if (run_control_ != nullptr) run_control_->Send(command);
+  return run_control_ != nullptr;
 }
 
-std::string Standing::See(std::int64_t time_ns, double now_s) {
+std::string PauseMonitor::See(std::int64_t time_ns, double now_s) {
   if (time_ns != seen_ns_) {
     seen_ns_ = time_ns;
     moved_s_ = now_s;
     why_.clear();
   }
-  while (desk_ != nullptr) {
-    const auto answer = desk_->Answer();
+  while (run_control_ != nullptr) {
+    const auto answer = run_control_->Answer();
     if (!answer) break;
     why_ = answer->starts_with(kPaused) ? answer->substr(3, answer->find(';') - 3) : std::string();
   }
   if (now_s - moved_s_ < kStill_s) return why_.empty() ? "" : why_ + kKeys;
-  if (desk_ != nullptr && now_s - asked_s_ >= kAgain_s) {
-    desk_->Ask("state");
+  if (run_control_ != nullptr && now_s - asked_s_ >= kAgain_s) {
+    run_control_->Send("state");
     asked_s_ = now_s;
   }
   return why_.empty() ? "the run's time stands" : why_ + kKeys;

@@ -10,23 +10,23 @@ namespace rodeira::nodes {
 
 // Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control
 // socket where that comes to rest.
-class Standing {
+class PauseMonitor {
  public:
   static constexpr double kStill_s = 0.5;  // without a new moment: time stands
   static constexpr double kAgain_s = 0.5;  // so often it asks why
 
-  Standing() : desk_(launch::RunControlClient::Open()) {}
+  PauseMonitor() : run_control_(launch::RunControlClient::Open()) {}
 
   // Pause, or go on; one step. False where the clock is not on this PC.
-  bool Toggle() { return Ask("toggle"); }
-  bool Step() { return Ask("step"); }
+  bool Toggle() { return Send("toggle"); }
+  bool Step() { return Send("step"); }
   // At each picture: its simulated time and the wall's. A sentence for the window; empty while time goes on.
   std::string See(std::int64_t time_ns, double now_s);
 
  private:
-  bool Ask(const char* command);
+  bool Send(const char* command);
 
-  std::unique_ptr<launch::RunControlClient> desk_;  // null: the clock is elsewhere
+  std::unique_ptr<launch::RunControlClient> run_control_;  // null: the clock is elsewhere
   std::int64_t seen_ns_ = -1;
   double moved_s_ = 0.0;  // when the simulated time was last seen to go on
   double asked_s_ = -1e9;

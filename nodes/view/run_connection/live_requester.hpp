@@ -12,14 +12,14 @@ namespace rodeira::nodes {
 
 // Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message
 // may be lost, and a run that stands takes nothing. Used on the thread of the window.
-class Asker {
+class LiveRequester {
  public:
   static constexpr double kRepeat_s = 0.05;
 
-  explicit Asker(std::unique_ptr<launch::LiveRequestsSender> sender) : sender_(std::move(sender)) {}
+  explicit LiveRequester(std::unique_ptr<launch::LiveRequestsSender> sender) : sender_(std::move(sender)) {}
 
   // False where too many wait already, or it can be no event: then nothing is asked.
-  bool Ask(const scenario::Request& request);
+  bool Request(const scenario::Request& request);
   // What the run has said.
   void See(const std::vector<scenario::Event>& events);
   // Says what is due.

@@ -75,10 +75,10 @@ void Give(Object object, const Pose& pose, const Host& host, network::NetworkSpe
   road = Road(std::move(with), road.axis());
 }
 
-class Things {
+class JunctionLayout {
  public:
-  Things(const JunctionReading& junction, const geometry::PlanAxis& axis, network::NetworkSpec& spec,
-         Findings& findings)
+  JunctionLayout(const JunctionReading& junction, const geometry::PlanAxis& axis, network::NetworkSpec& spec,
+                 Findings& findings)
       : junction_(junction), axis_(axis), spec_(spec), findings_(findings) {}
 
   void Lay(const JunctionObject& said) const {
@@ -252,8 +252,8 @@ std::set<std::string, std::less<>> PathsOnFoot(std::span<const RoadReading> road
   return paths;
 }
 
-void LayJunctionThings(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot,
-                       network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings) {
+void LayJunctionObjects(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot,
+                        network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings) {
   const auto find = [&](const std::string& id) {
     return static_cast<std::size_t>(
         std::find_if(spec.roads.begin(), spec.roads.end(), [&](const Road& road) { return road.id() == id; }) -
@@ -282,7 +282,7 @@ void LayJunctionThings(std::span<const JunctionReading> junctions, const std::se
     if (junction.objects.empty()) continue;
     const auto axis = geometry::PlanAxis::Make(junction.elements);
     if (axis) {
-      const Things things(junction, *axis, spec, findings);
+      const JunctionLayout things(junction, *axis, spec, findings);
       for (const JunctionObject& object : junction.objects) things.Lay(object);
     } else {
       findings.warnings.push_back(

@@ -23,10 +23,10 @@ const std::string kObjects =
     "every_m: 9}\n  - {type: wall, along: [[200, 100], [300, 100], [300, 200]]}\n";
 
 // The ground is the bare grid's to the bit, hints or not, in batches too.
-TEST(StandingWorld, TheGroundIsTheBareGrids) {
+TEST(WorldOfProps, TheGroundIsTheBareGrids) {
   const auto bare = MustParse(kHills), planted = MustParse(kHills + kObjects);
-  ASSERT_NE(planted->standing(), nullptr);
-  EXPECT_EQ(bare->standing(), nullptr);
+  ASSERT_NE(planted->props(), nullptr);
+  EXPECT_EQ(bare->props(), nullptr);
   std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     queries.push_back({base::RandomUniform({i, 1}, -10.0, 410.0), base::RandomUniform({i, 2}, -10.0, 410.0),
@@ -47,7 +47,7 @@ TEST(StandingWorld, TheGroundIsTheBareGrids) {
 }
 
 // A car runs into them: they are of the content hash, by place and size, names and comments are not.
-TEST(StandingWorld, TheContentHashKnowsThem) {
+TEST(WorldOfProps, TheContentHashKnowsThem) {
   const auto hash = [](const std::string& text) { return MustParse(text)->content_hash(); };
   const base::Digest own = hash(kHills + kObjects);
   EXPECT_NE(own, hash(kHills));
@@ -64,7 +64,7 @@ TEST(StandingWorld, TheContentHashKnowsThem) {
   EXPECT_NE(with("every_m: 9", "every_m: 10"), own);
 }
 
-TEST(StandingWorld, WhereThereIsNoTerrainNothingStands) {
+TEST(WorldOfProps, WhereThereIsNoTerrainNothingStands) {
   const auto problem = [](const std::string& objects) {
     const auto world = World::Parse(kHills + "objects:\n" + objects, "made.yaml");
     return world.ok() ? std::string("none") : world.error().Text();
@@ -85,7 +85,7 @@ TEST(StandingWorld, WhereThereIsNoTerrainNothingStands) {
   EXPECT_THAT(first.error().Text(), HasSubstr("made.yaml:4: unknown key 'objects'"));
 }
 
-TEST(StandingWorld, ThePlanShowsThem) {
+TEST(WorldOfProps, ThePlanShowsThem) {
   const std::string plan = PlotWorld(*MustParse(kHills + kObjects));
   std::size_t trees = 0;
   for (std::size_t at = plan.find("<circle"); at != std::string::npos; at = plan.find("<circle", at + 1)) ++trees;

@@ -15,7 +15,7 @@ constexpr std::array kEvents = {
     LifeEvent::kFailed,         LifeEvent::kRefused,   LifeEvent::kLost};
 
 // A row a phase that is no end, a column an event.
-TEST(Life, EveryPhaseAndEvent) {
+TEST(LifeCycle, EveryPhaseAndEvent) {
   using enum Phase;
   const std::array<std::array<Phase, kEvents.size()>, 3> expected = {{
       {kReady, kStarting, kStarting, kAborted, kFailed, kRefused, kLost},
@@ -28,7 +28,7 @@ TEST(Life, EveryPhaseAndEvent) {
   }
 }
 
-TEST(Life, AnEndIsForGood) {
+TEST(LifeCycle, AnEndIsForGood) {
   for (const Phase phase : kPhases) {
     if (!IsTerminal(phase)) continue;
     for (const LifeEvent event : kEvents) EXPECT_EQ(NextPhase(phase, event), phase) << PhaseName(phase);
@@ -37,7 +37,7 @@ TEST(Life, AnEndIsForGood) {
 }
 
 // What a node reports in the order of its events is news; whatever overtakes it is not.
-TEST(Life, ReportsOfOneLifeFollowOneAnother) {
+TEST(LifeCycle, ReportsOfOneLifeFollowOneAnother) {
   for (const Phase phase : kPhases) {
     for (const LifeEvent event : kEvents) {
       const Phase next = NextPhase(phase, event);
@@ -49,7 +49,7 @@ TEST(Life, ReportsOfOneLifeFollowOneAnother) {
   }
 }
 
-TEST(Life, AnEndIsMeantOnlyWhenTheClockHasSaidSo) {
+TEST(LifeCycle, AnEndIsMeantOnlyWhenTheClockHasSaidSo) {
   for (const bool final : {false, true}) {
     for (const bool abort : {false, true}) {
       Grant grant;
@@ -62,7 +62,7 @@ TEST(Life, AnEndIsMeantOnlyWhenTheClockHasSaidSo) {
   }
 }
 
-TEST(Life, OnlyANodeThatHasFinishedStaysForOthers) {
+TEST(LifeCycle, OnlyANodeThatHasFinishedStaysForOthers) {
   for (const Phase phase : kPhases) {
     for (const bool over : {false, true}) {
       for (const bool abort : {false, true}) {

@@ -57,11 +57,11 @@ class ContinuedFile : public testing::Test {
   }
   base::Result<std::optional<McapWriter>> Go(std::uint64_t least_end_ns) {
     handed_.clear();
-    return McapWriter::GoOn(file_, Settings(),
-                            {1'000'000, least_end_ns, [&](const Channel&, const Message& message) -> base::Status {
-                               handed_.push_back(message.sequence);
-                               return {};
-                             }});
+    return McapWriter::Resume(file_, Settings(),
+                              {1'000'000, least_end_ns, [&](const Channel&, const Message& message) -> base::Status {
+                                 handed_.push_back(message.sequence);
+                                 return {};
+                               }});
   }
   fs::path folder_, file_;
   std::vector<std::uint32_t> handed_;

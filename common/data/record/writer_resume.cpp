@@ -70,8 +70,8 @@ base::Status HandInTail(const Source& source, const Contents& contents, const Mc
 
 }  // namespace
 
-base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::path& path,
-                                                         const WriterSettings& settings, const Tail& tail) {
+base::Result<std::optional<McapWriter>> McapWriter::Resume(const std::filesystem::path& path,
+                                                           const WriterSettings& settings, const Tail& tail) {
   std::unique_ptr<Sink> sink;
   std::unique_ptr<Source> source;
   Scan scan;
@@ -107,7 +107,7 @@ base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::
   if (!crc) return crc.error();
   if (auto status = HandInTail(*source, contents, tail); !status) return status.error();
   auto work = std::make_unique<Work>(std::move(sink), settings);
-  work->GoOn(std::move(contents), scan.good_bytes, crc.value());
+  work->Resume(std::move(contents), scan.good_bytes, crc.value());
   return std::optional<McapWriter>(McapWriter(std::move(work)));
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/view/run_connection/asker.hpp"
+#include "nodes/view/run_connection/live_requester.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace rodeira::nodes {
 
-bool Asker::Ask(const scenario::Request& request) {
+bool LiveRequester::Request(const scenario::Request& request) {
   const auto becomes = scenario::EventOf(request);
   if (!becomes || waiting_.size() >= launch::LiveRequestsSender::kMost) return false;
   waiting_.push_back(
@@ -15,7 +15,7 @@ bool Asker::Ask(const scenario::Request& request) {
   return true;
 }
 
-void Asker::See(const std::vector<scenario::Event>& events) {
+void LiveRequester::See(const std::vector<scenario::Event>& events) {
   for (const scenario::Event& event : events) {
     const auto same = [&](const Waiting& waiting) {
       return waiting.becomes.name == event.name && waiting.becomes.argument == event.argument &&
@@ -26,7 +26,7 @@ void Asker::See(const std::vector<scenario::Event>& events) {
   }
 }
 
-void Asker::Tell(double now_s) {
+void LiveRequester::Tell(double now_s) {
   if (waiting_.empty() || (!changed_ && now_s - told_s_ < kRepeat_s)) return;
   std::vector<launch::LiveRequest> all;
   for (const Waiting& waiting : waiting_) all.push_back(waiting.request);

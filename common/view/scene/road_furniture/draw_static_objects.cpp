@@ -63,7 +63,7 @@ struct Drawing {
 
   // A model that may stand at other places too; it is made where it is the first one.
   template <class Make>
-  void Repeat(const ModelKey& key, const StandingPlace& place, Make make) {
+  void Repeat(const ModelKey& key, const PlacedCopy& place, Make make) {
     auto [found, fresh] = repeated.try_emplace(key);
     if (fresh) {
       found->second = make();
@@ -233,7 +233,7 @@ std::vector<PlacedModel> ModelsOf(const StaticObjects::Tile& tile, int level) {
   return models;
 }
 
-DrawnThings DrawThings(const StaticObjects::Tile& tile, const TileKey& key, int level) {
+DrawnStaticObjects DrawStaticObjects(const StaticObjects::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);
   const double z = !tile.things.empty()  ? tile.things.front().stand.foot_W.z()
                    : !tile.rails.empty() ? tile.rails.front().foot_W[0].z()
@@ -247,7 +247,7 @@ DrawnThings DrawThings(const StaticObjects::Tile& tile, const TileKey& key, int 
   Mesh lamps;
   lamps.material = Material::kLamp, lamps.origin_W = drawing.origin_W;
   for (const network::TubePiece& piece : tile.tubes) AddTube(piece, level, drawing.solid, lamps);
-  DrawnThings drawn;
+  DrawnStaticObjects drawn;
   std::vector<Repeated> few;
   for (auto& [model, repeated] : drawing.repeated) {
     if (!repeated.model.triangles.empty())

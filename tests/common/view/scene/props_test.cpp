@@ -24,7 +24,7 @@ std::shared_ptr<const road::World> With(
 
 double Ground(double x, double y) { return 5.0 + 0.1 * x - 0.05 * y; }
 
-TEST(StandingThings, StandOnTheGroundTheWayTheyAreTurned) {
+TEST(StaticProps, StandOnTheGroundTheWayTheyAreTurned) {
   const auto world = With(
       "  - {type: house, x_m: 120, y_m: 80, heading_deg: 30, length_m: 14, width_m: 8, height_m: 6}\n  - {type: tree, "
       "along: [[0, 0], [300, 0]], every_m: 100, height_m: 9, radius_m: 2}\n"
@@ -58,7 +58,7 @@ TEST(StandingThings, StandOnTheGroundTheWayTheyAreTurned) {
 
 // A wall of 30 m and, round a corner, 20 m: pieces of 4 m at most, each of which begins where the one before ends, on
 // the ground.
-TEST(StandingThings, AWallFollowsTheGroundWithoutAGap) {
+TEST(StaticProps, AWallFollowsTheGroundWithoutAGap) {
   const auto world = With("  - {type: wall, along: [[10, 10], [40, 10], [40, 30]], height_m: 1.5, width_m: 0.4}\n");
   const StaticObjects things(*world);
   std::vector<RailPiece> pieces;
@@ -86,7 +86,7 @@ TEST(StandingThings, AWallFollowsTheGroundWithoutAGap) {
 
 // On a bare elevation grid too every tile of the ground is there, with what stands in it; and what is seen is another
 // where a thing is moved or is another model.
-TEST(StandingThings, AreSeenOnABareGrid) {
+TEST(StaticProps, AreSeenOnABareGrid) {
   const std::string hills =
       "terrain: {surface: grass, generate: {seed: 3, columns: 65, rows: 65, spacing_m: 8, west_m: 0, south_m: 0, "
       "relief: [{wavelength_m: 90, amplitude_m: 4}]}}";
@@ -107,7 +107,7 @@ TEST(StandingThings, AreSeenOnABareGrid) {
 }
 
 // A plane has no edge: around what stands on it, and around the start, there is ground to be seen.
-TEST(StandingThings, OnAPlaneTheGroundAroundThemIsSeen) {
+TEST(StaticProps, OnAPlaneTheGroundAroundThemIsSeen) {
   const auto world = With("  - {type: tree, x_m: 3000, y_m: 100}\n", "ground: {kind: plane}");
   const GroundPlan plan(*world, 1);
   const auto shows = [&](double x, double y) {

@@ -17,60 +17,60 @@ using testing::HasSubstr;
 
 std::string With(const std::string& objects) { return "rodeira: world/2\nobjects:\n" + objects; }
 
-TEST(Standing, OneThingStandsWhereItIsSaid) {
+TEST(Props, OneThingStandsWhereItIsSaid) {
   const Design design =
       SoundDesign(With("  - {type: house, name: mill, x_m: 120.5, y_m: -30, heading_deg: 30, length_m: 14, width_m: 8, "
                        "height_m: 6, z_m: 0.25}\n  - {type: tree, x_m: 1, y_m: 2, height_m: 10}\n"));
-  ASSERT_EQ(design.standing.things.size(), 2u);
+  ASSERT_EQ(design.props.placements.size(), 2u);
   EXPECT_EQ(design.network, nullptr);
-  const auto& house = design.standing.things[0];
-  EXPECT_EQ(house.at_W, Eigen::Vector2d(120.5, -30.0));
-  EXPECT_NEAR(house.heading_rad, geometry::kPi / 6.0, 1e-12);
-  const network::Object& mill = design.standing.objects[house.object];
+  const auto& building = design.props.placements[0];
+  EXPECT_EQ(building.at_W, Eigen::Vector2d(120.5, -30.0));
+  EXPECT_NEAR(building.heading_rad, geometry::kPi / 6.0, 1e-12);
+  const network::Object& mill = design.props.objects[building.object];
   EXPECT_TRUE(mill.name == "mill" && mill.type == "building" && mill.subtype == "house" && mill.z_offset_m == 0.25);
   EXPECT_TRUE(mill.length_m == 14.0 && mill.width_m == 8.0 && mill.height_m == 6.0);
-  const network::Object& tree = design.standing.objects[design.standing.things[1].object];
+  const network::Object& tree = design.props.objects[design.props.placements[1].object];
   EXPECT_NEAR(tree.radius_m, 3.0, 1e-12);
-  EXPECT_EQ(design.standing.things[1].heading_rad, 0.0);
+  EXPECT_EQ(design.props.placements[1].heading_rad, 0.0);
 }
 
 // 30 m to the east, then 40 to the north: every 20 m from its beginning on there is one at 0, 20, 40 and 60 m, the last
 // two beyond the corner.
-TEST(Standing, ARowFollowsItsLine) {
+TEST(Props, ARowFollowsItsLine) {
   const Design design =
       SoundDesign(With("  - {type: lamp, along: [[100, 50], [130, 50], [130, 90]], every_m: 20, rotation_deg: 90}\n"));
-  ASSERT_EQ(design.standing.things.size(), 4u);
+  ASSERT_EQ(design.props.placements.size(), 4u);
   const std::array<Eigen::Vector2d, 4> places = {Eigen::Vector2d(100.0, 50.0), Eigen::Vector2d(120.0, 50.0),
                                                  Eigen::Vector2d(130.0, 60.0), Eigen::Vector2d(130.0, 80.0)};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR((design.standing.things[i].at_W - places[i]).norm(), 0.0, 1e-12) << i;
-    EXPECT_NEAR(design.standing.things[i].heading_rad, (i < 2 ? 0.5 : 1.0) * geometry::kPi, 1e-12) << i;
+    EXPECT_NEAR((design.props.placements[i].at_W - places[i]).norm(), 0.0, 1e-12) << i;
+    EXPECT_NEAR(design.props.placements[i].heading_rad, (i < 2 ? 0.5 : 1.0) * geometry::kPi, 1e-12) << i;
   }
   // A whole number of times: one stands at the very end.
-  EXPECT_EQ(SoundDesign(With("  - {type: tree, along: [[0, 0], [0, 30]], every_m: 0.1}\n")).standing.things.size(),
+  EXPECT_EQ(SoundDesign(With("  - {type: tree, along: [[0, 0], [0, 30]], every_m: 0.1}\n")).props.placements.size(),
             301u);
 }
 
-TEST(Standing, WallsAndRailsGoOnAlongTheirLine) {
+TEST(Props, WallsAndRailsGoOnAlongTheirLine) {
   const Design design =
       SoundDesign(With("  - {type: wall, along: [[0, 0], [10, 0], [10, 10]], height_m: 2}\n  - {type: guard_rail, "
                        "along: [[0, 5], [9, 5]]}\n"));
-  EXPECT_TRUE(design.standing.things.empty());
-  ASSERT_EQ(design.standing.runs.size(), 2u);
-  EXPECT_EQ(design.standing.runs[0].points_W.size(), 3u);
-  EXPECT_EQ(design.standing.runs[0].points_W[2], Eigen::Vector2d(10.0, 10.0));
-  EXPECT_EQ(design.standing.objects[design.standing.runs[1].object].height_m, 0.75);
+  EXPECT_TRUE(design.props.placements.empty());
+  ASSERT_EQ(design.props.runs.size(), 2u);
+  EXPECT_EQ(design.props.runs[0].points_W.size(), 3u);
+  EXPECT_EQ(design.props.runs[0].points_W[2], Eigen::Vector2d(10.0, 10.0));
+  EXPECT_EQ(design.props.objects[design.props.runs[1].object].height_m, 0.75);
 }
 
-TEST(Standing, BesideRoadsToo) {
+TEST(Props, BesideRoadsToo) {
   const Design design = SoundDesign(
       "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {length_m: 50}], section: {template: rural}}\nobjects: "
       "[{type: bush, x_m: 20, y_m: 30}]\n");
   EXPECT_EQ(design.network->roads().size(), 1u);
-  EXPECT_EQ(design.standing.things.size(), 1u);
+  EXPECT_EQ(design.props.placements.size(), 1u);
 }
 
-TEST(Standing, WhatDoesNotFitIsASentence) {
+TEST(Props, WhatDoesNotFitIsASentence) {
   EXPECT_THAT(FirstProblem(With("  - {type: treee, x_m: 1, y_m: 2}\n")),
               HasSubstr("made.yaml:3: 'objects[0].type' is 'treee'"));
   EXPECT_THAT(FirstProblem(With("  - {type: tree, x_m: 1}\n")), HasSubstr("y_m"));
@@ -96,7 +96,7 @@ TEST(Standing, WhatDoesNotFitIsASentence) {
 }
 
 // A model is found from wherever the program stands: its name is a whole path, at roads too.
-TEST(Standing, AModelIsNamedByItsWholePath) {
+TEST(Props, AModelIsNamedByItsWholePath) {
   const cli::TemporaryFolder folder;
   const std::filesystem::path before = std::filesystem::current_path();
   folder.Write("hut.obj", "v 0 0 0\n");
@@ -106,7 +106,7 @@ TEST(Standing, AModelIsNamedByItsWholePath) {
       "{length_m: 50}], section: {template: rural},\n"
       "     objects: [{type: house, s_m: 3, model: hut.obj}]}\n");
   std::filesystem::current_path(before);
-  EXPECT_EQ(design.standing.objects[0].name, (folder.path() / "hut.obj").string());
+  EXPECT_EQ(design.props.objects[0].name, (folder.path() / "hut.obj").string());
   EXPECT_EQ(design.network->roads()[0].spec().objects[0].name, (folder.path() / "hut.obj").string());
 }
 

@@ -28,13 +28,13 @@ Vector2d LeftAt(const std::vector<Vector2d>& line, std::size_t corner) {
 
 }  // namespace
 
-void StaticObjects::AddStanding(const road::World& world, const network::Standing& standing) {
-  for (const network::Standing::Thing& each : standing.things) {
-    const network::Placed placed = network::PlaceStanding(standing, each, OnGround(world, each.at_W));
+void StaticObjects::AddProps(const road::World& world, const network::Props& props) {
+  for (const network::Props::Placement& each : props.placements) {
+    const network::Placed placed = network::PlaceProp(props, each, OnGround(world, each.at_W));
     AddObject(nullptr, placed, ThingAt(placed, placed.foot_W));
   }
-  for (const network::Standing::Run& run : standing.runs) {
-    const network::Object& object = standing.objects[run.object];
+  for (const network::Props::Run& run : props.runs) {
+    const network::Object& object = props.objects[run.object];
     RailPiece piece;
     piece.wall = object.subtype != "guard_rail";
     piece.height_m.fill(object.height_m), piece.width_m.fill(object.width_m);

@@ -35,7 +35,7 @@ std::shared_ptr<const road::World> WorldWith(const std::string& more, const std:
 std::vector<Mesh> DrawAll(const StaticObjects& things, int level) {
   std::vector<Mesh> all;
   for (const auto& [key, tile] : things.tiles()) {
-    DrawnThings drawn = DrawThings(tile, key, level);
+    DrawnStaticObjects drawn = DrawStaticObjects(tile, key, level);
     for (Mesh& mesh : drawn.meshes) all.push_back(std::move(mesh));
     for (Mesh& mesh : Merged(drawn.repeated)) all.push_back(std::move(mesh));
   }
@@ -267,7 +267,7 @@ TEST(StaticObjects, ObjectsByTheirKindsAndDeclaredSizes) {
   StaticObjects::Tile box;
   box.things.push_back(tile.things[1]);
   double low_z = 1e9, high_z = -1e9, east = -1e9;
-  for (const Mesh& mesh : DrawThings(box, {0, 0}, 0).meshes) {
+  for (const Mesh& mesh : DrawStaticObjects(box, {0, 0}, 0).meshes) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vector3d p = mesh.PositionW(i);
       low_z = std::min(low_z, p.z()), high_z = std::max(high_z, p.z()), east = std::max(east, p.x());
@@ -297,7 +297,7 @@ TEST(StaticObjects, AnIslandHasItsKerbAndItsFilling) {
     StaticObjects::Tile one;
     one.things.push_back(thing);
     const bool filling = thing.heights_m[0] == 0.15;
-    for (Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
+    for (Mesh& mesh : DrawStaticObjects(one, {0, 0}, 0).meshes) {
       mesh.origin_W.z() -= 5.0;  // the road's height: its lower face, which is missing, comes to lie on 0
       if (filling)
         filled_m3 += Volume(mesh);
@@ -328,7 +328,7 @@ TEST(StaticObjects, AMastIsItsSkeleton) {
     one.things.push_back(tile.things[which]);
     low = Vector3d::Constant(1e9), high = -low;
     double volume = 0.0;
-    for (const Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
+    for (const Mesh& mesh : DrawStaticObjects(one, {0, 0}, 0).meshes) {
       for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         low = low.cwiseMin(mesh.PositionW(i)), high = high.cwiseMax(mesh.PositionW(i));
       volume += Volume(mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/design/standing_reader.hpp"
+#include "common/world/design/props_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ double PolylineLength(const std::vector<Vector2d>& line) {
 
 // From the line's beginning on one every so often, turned against it.
 void StandInARow(const DeclaredMap& item, const std::vector<Vector2d>& line, std::size_t object,
-                 network::Standing& standing) {
+                 network::Props& props) {
   const double every = item.RequiredNumber("every_m"), turn = Radians(item.Number("rotation_deg"));
   const double last = std::floor(PolylineLength(line) / every + 1e-9);
   if (last >= kMaxInRow)
@@ -68,17 +68,17 @@ void StandInARow(const DeclaredMap& item, const std::vector<Vector2d>& line, std
       ++piece;
       way = line[piece] - line[piece - 1];
     }
-    standing.things.push_back(
+    props.placements.push_back(
         {object, line[piece - 1] + (i * every - before) * way.normalized(), std::atan2(way.y(), way.x()) + turn});
   }
 }
 
 void ReadThing(const DeclaredMap& keys, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
-               network::Standing& standing) {
+               network::Props& props) {
   const Map& item = keys.map();
-  auto [object, continuous] = ReadObjectItself(keys, fmt::format("object{}", standing.objects.size()));
-  const std::size_t index = standing.objects.size(), first = standing.things.size();
-  standing.objects.push_back(std::move(object));
+  auto [object, continuous] = ReadObjectItself(keys, fmt::format("object{}", props.objects.size()));
+  const std::size_t index = props.objects.size(), first = props.placements.size();
+  props.objects.push_back(std::move(object));
   if (continuous || item.Has("along")) {
     for (const char* key : {"x_m", "y_m", "heading_deg"}) {
       if (item.Has(key))
@@ -97,7 +97,7 @@ void ReadThing(const DeclaredMap& keys, const TerrainIsAt& terrain_is_at, const 
                             fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
     }
     if (!continuous)
-      StandInARow(keys, line, index, standing);
+      StandInARow(keys, line, index, props);
     else if (item.Has("every_m"))
       item.Problem("every_m", "config.conflicting_keys", "what goes on has no 'every_m'");
     else if (PolylineLength(line) > kLongest_m)
@@ -105,16 +105,16 @@ void ReadThing(const DeclaredMap& keys, const TerrainIsAt& terrain_is_at, const 
           "along", "config.out_of_range",
           fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", PolylineLength(line), kLongest_m));
     else
-      standing.runs.push_back({index, std::move(line)});
+      props.runs.push_back({index, std::move(line)});
   } else {
-    standing.things.push_back(
+    props.placements.push_back(
         {index, {keys.RequiredNumber("x_m"), keys.RequiredNumber("y_m")}, Radians(keys.Number("heading_deg"))});
-    if (move) move(standing.things.back().at_W, standing.things.back().heading_rad);
+    if (move) move(props.placements.back().at_W, props.placements.back().heading_rad);
     if (item.Has("every_m"))
       item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
   }
-  for (std::size_t i = first; i < standing.things.size(); ++i) {
-    const Vector2d& p = standing.things[i].at_W;
+  for (std::size_t i = first; i < props.placements.size(); ++i) {
+    const Vector2d& p = props.placements[i].at_W;
     if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
       return item.Problem(item.Has("along") ? "along" : "x_m", "world.outside_of_terrain",
                           fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
@@ -123,10 +123,10 @@ void ReadThing(const DeclaredMap& keys, const TerrainIsAt& terrain_is_at, const 
 
 }  // namespace
 
-void ReadStanding(const DeclaredMap& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
-                  network::Standing& standing) {
+void ReadProps(const DeclaredMap& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+               network::Props& props) {
   const DeclaredList objects = file.Items("objects");
-  for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, move, standing);
+  for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, move, props);
 }
 
 }  // namespace rodeira::design

@@ -20,7 +20,7 @@
 namespace rodeira::nodes {
 namespace {
 
-class StandingRun : public testing::Test {
+class PausedRun : public testing::Test {
  protected:
   void SetUp() override {
     auto made = base::TemporaryFolder::Make("desk");
@@ -52,7 +52,7 @@ class StandingRun : public testing::Test {
     return screen_->renderer().Read();
   }
   // The next line that the window asks, while it goes on showing the same.
-  cli::AskedLine Asked() {
+  cli::AskedLine NextRequest() {
     for (int i = 0; i < 2000; ++i) {
       if (auto line = server_->Next()) return *line;
       screen_->Show(moment_, 1.0);
@@ -69,31 +69,31 @@ class StandingRun : public testing::Test {
   scene::SceneSnapshot moment_;
 };
 
-TEST_F(StandingRun, SpacePausesAndTheWindowSaysWhatTheClockSays) {
+TEST_F(PausedRun, SpacePausesAndTheWindowSaysWhatTheClockSays) {
   RODEIRA_NEEDS_PICTURES();
   Serve();
   OpenScreen();
   EXPECT_FALSE(screen_->TakeKey(SDLK_SPACE, true)) << "nothing is shown yet";
   const Image running = Shown();
   EXPECT_TRUE(screen_->TakeKey(SDLK_SPACE, true));
-  cli::AskedLine asked = Asked();
+  cli::AskedLine asked = NextRequest();
   EXPECT_EQ(asked.line, "toggle");
   asked.answer("ok paused at 1.500 s (step 1500)");
   const Image paused = Shown();
   EXPECT_NE(paused.rgb, running.rgb) << "it stands over the picture";
-  asked = Asked();
+  asked = NextRequest();
   EXPECT_EQ(asked.line, "state") << "who knows who lets it go on";
   asked.answer("ok paused at 1.500 s (step 1500); driver waits for ego");
   EXPECT_EQ(Shown().rgb, paused.rgb);
   EXPECT_TRUE(screen_->TakeKey(SDLK_RETURN, true));
-  while ((asked = Asked()).line == "state") asked.answer("ok paused at 1.500 s (step 1500)");
+  while ((asked = NextRequest()).line == "state") asked.answer("ok paused at 1.500 s (step 1500)");
   EXPECT_EQ(asked.line, "step");
   asked.answer("ok 1 step from 1.500 s (step 1500)");
   moment_.time_ns += 20'000'000;
   EXPECT_EQ(Shown().rgb, running.rgb) << "time goes on";
 }
 
-TEST_F(StandingRun, WhereTheClockIsElsewhereTheWindowSaysSo) {
+TEST_F(PausedRun, WhereTheClockIsElsewhereTheWindowSaysSo) {
   RODEIRA_NEEDS_PICTURES();
   OpenScreen();
   const Image running = Shown();
@@ -101,7 +101,7 @@ TEST_F(StandingRun, WhereTheClockIsElsewhereTheWindowSaysSo) {
   EXPECT_NE(Shown().rgb, running.rgb) << "a note";
 }
 
-TEST_F(StandingRun, ARecordingsKeysAreItsOwn) {
+TEST_F(PausedRun, ARecordingsKeysAreItsOwn) {
   RODEIRA_NEEDS_PICTURES();
   Serve();
   OpenScreen();

@@ -32,22 +32,22 @@ class ADesk : public testing::Test {
     window_ = std::move(opened).value();
     Sit();
   }
-  void TearDown() override { desk_.reset(); }
+  void TearDown() override { app_.reset(); }
 
   void Sit(const std::filesystem::path& file = {}) {
-    desk_.reset();
-    desk_ = std::make_unique<EditorApp>(*window_, file, folder_->path() / "kept");
+    app_.reset();
+    app_ = std::make_unique<EditorApp>(*window_, file, folder_->path() / "kept");
     Show();
   }
   // Until nothing waits any more.
   void Show() {
     for (int i = 0; i < 2000; ++i) {
-      open_ = desk_->Frame(0);
+      open_ = app_->Frame(0);
       if (!open_ || (!window_->busy() && !work().picture.loading())) break;
     }
-    if (open_) open_ = desk_->Frame(0);
+    if (open_) open_ = app_->Frame(0);
   }
-  Work& work() { return desk_->work(); }
+  Work& work() { return app_->work(); }
   const editor::Document& document() { return work().session.document(); }
   std::string Said() { return work().session.said().text; }
 
@@ -123,13 +123,13 @@ class ADesk : public testing::Test {
   void Keep(const std::string& name) {
     const char* folder = std::getenv("RODEIRA_PICTURES");
     window::Image seen;
-    desk_->Frame(0, &seen);
+    app_->Frame(0, &seen);
     EXPECT_TRUE(folder == nullptr || window::WritePng(std::filesystem::path(folder) / name, seen).ok());
   }
 
   std::optional<base::TemporaryFolder> folder_;
   std::unique_ptr<window::Window> window_;
-  std::unique_ptr<EditorApp> desk_;
+  std::unique_ptr<EditorApp> app_;
   bool open_ = true;
 };
 

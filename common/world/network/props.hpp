@@ -11,8 +11,8 @@ namespace rodeira::network {
 
 // What stands on the ground by itself, at no road: a world file's own objects. An object's s, t and turn say nothing
 // here.
-struct Standing {
-  struct Thing {
+struct Props {
+  struct Placement {
     std::size_t object = 0;
     Eigen::Vector2d at_W = Eigen::Vector2d::Zero();
     double heading_rad = 0.0;  // of its x axis, from east to north
@@ -23,10 +23,10 @@ struct Standing {
     std::vector<Eigen::Vector2d> points_W;  // two or more, none on the one before
   };
   std::vector<Object> objects;
-  std::vector<Thing> things;
+  std::vector<Placement> placements;
   std::vector<Run> runs;
 
-  bool empty() const { return things.empty() && runs.empty(); }
+  bool empty() const { return placements.empty() && runs.empty(); }
 };
 
 }  // namespace rodeira::network

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/core/config/declared.hpp"
+#include "common/world/design/road_fit.hpp"
+#include "common/world/network/props.hpp"
+
+namespace rodeira::design {
+
+// 'objects' of a file: what stands at no road; added to `props`. Where there is no terrain under it, it is a
+// problem.
+void ReadProps(const config::DeclaredMap& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+               network::Props& props);
+
+}  // namespace rodeira::design
