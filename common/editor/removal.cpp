@@ -63,7 +63,7 @@ base::Result<Edit> Remove(Document& document, const Selection& selection) {
     return gone.lanes.contains(c.from) || gone.lanes.contains(c.to) || gone.connections.contains({c.from, c.to});
   });
   if (curves.empty() && lanes.empty() && connections.empty())
-    return base::WrongInput("edit.nothing_chosen", "nothing is chosen that could be deleted");
+    return base::WrongInput("edit.nothing_chosen", "nothing is selected that can be deleted");
   Recorder recorder(document);
   for (const std::size_t i : connections) recorder.RemoveConnection(i);
   for (const std::size_t i : lanes) recorder.RemoveLane(i);

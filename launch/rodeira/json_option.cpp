@@ -12,7 +12,7 @@ constexpr const char* kJson = "--json";
 
 void AddJson(CLI::App& app) {
   if (app.get_option_no_throw(kJson) == nullptr)  // otherwise the command prints its result as JSON, too
-    app.add_flag(kJson)->description("errors as JSON on standard error, a line each");
+    app.add_flag(kJson)->description("errors as JSON on standard error, one per line");
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) AddJson(*command);
 }
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-// `--json`: errors as JSON on standard error, a line each (base::ErrorJson).
+// `--json`: errors as JSON on standard error, one per line (base::ErrorJson).
 namespace rodeira::cli {
 
 // Declares `--json` at the program and at each of its commands. Called when all commands are declared.

@@ -76,7 +76,7 @@ base::Result<std::vector<const Column*>> ReadHead(const std::string& line, const
       return base::WrongInput("table.unknown_column",
                               fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, ColumnNames())), where);
     if (std::find(columns.begin(), columns.end(), &*found) != columns.end())
-      return base::WrongInput("table.duplicate_column", fmt::format("column '{}' stands twice", name), where);
+      return base::WrongInput("table.duplicate_column", fmt::format("column '{}' appears twice", name), where);
     columns.push_back(&*found);
   }
   if (columns.front()->name != "time_s")

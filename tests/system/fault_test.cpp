@@ -54,7 +54,7 @@ TEST(Fault, AHangingNodeIsNamedByADeadlineThatIsLongerThanTheClocksSilence) {
   const Ended ended = run.Wait(20s);
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.out, HasLine("node 'b' … computing step 200 … limits.step_s"));
-  EXPECT_EQ(ended.out.find("the clock has said nothing"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("the clock has sent nothing"), std::string::npos) << ended.out;
 }
 
 TEST(Fault, AHangingServerIsNamedByItsDeadline) {
@@ -122,7 +122,7 @@ TEST_F(HangingByHand, ANodeMissesAClockThatIsGone) {
   Started clock(Part("clock", ""));
   ASSERT_GE(nodes_[1]->WaitFor("told to hang here", 30s), 0ms);
   ::kill(clock.pid(), SIGKILL);
-  ExpectEndOfTheHangingNode("the clock has said nothing for 3.0 s");
+  ExpectEndOfTheHangingNode("the clock has sent nothing for 3.0 s");
 }
 
 TEST(Fault, AFailingNodeIsNamedWithItsReason) {
@@ -143,7 +143,7 @@ TEST(Fault, TheClockItselfNotesASilentNode) {
                  "--for", "1000"});
   ASSERT_GE(clock.WaitFor("progress", 10s), 0ms);
   ::kill(nodes[1]->pid(), SIGKILL);
-  const auto took = clock.WaitFor("fault node 'b' has said nothing for", 5s);
+  const auto took = clock.WaitFor("fault node 'b' has sent nothing for", 5s);
   EXPECT_GE(took, 0ms);
   EXPECT_LE(took, 1000ms);
   EXPECT_EQ(clock.Wait(10s).status, 1);

@@ -294,11 +294,11 @@ TEST_F(Hosts, APulledCableEndsBoth) {
   const auto right = Start(1), left = Start(0, {"--for", "1000", "--pace", "real"});
   ASSERT_TRUE(WaitUntilItDrives());
   rig_->Unplug(1);
-  EXPECT_GE(left->WaitFor("has said nothing for", 2s), 0ms);
+  EXPECT_GE(left->WaitFor("has sent nothing for", 2s), 0ms);
   const Ended here = left->Wait(15s), there = right->Wait(15s);
   EXPECT_EQ(here.status, 1) << here.out;
   EXPECT_EQ(there.status, 1) << there.out;
-  EXPECT_NE(there.out.find("the clock has said nothing for 3.0 s: it was killed, stopped or cut off"),
+  EXPECT_NE(there.out.find("the clock has sent nothing for 3.0 s: it was killed, stopped or cut off"),
             std::string::npos)
       << there.out;
   ExpectNobodyLeft();

@@ -191,7 +191,7 @@ TEST_F(Live, DrivingByKeysNeedsAWindow) {
   const Ended ended = RunCommand({"DISPLAY=:987", "WAYLAND_DISPLAY=nowhere", Bin("rodeira"), "run",
                                   LaunchFile("keyboard.yaml"), "--record", Path("never.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 2) << ended.out;
-  EXPECT_NE(ended.out.find("a window is wanted"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("a window is requested"), std::string::npos) << ended.out;
 }
 
 }  // namespace

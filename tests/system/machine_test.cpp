@@ -107,7 +107,7 @@ TEST(BesideOneAnother, ANodeProgramStartedASecondTimeByHandEndsTheRun) {
   (void)RunCommand(CommandLineOf(nodes.front()));
   const Ended ended = run.Wait(20s);
   EXPECT_EQ(ended.status, 2) << ended.out;
-  EXPECT_THAT(ended.out, HasSubstr("node 'b' takes part twice, as process " + std::to_string(nodes.front())));
+  EXPECT_THAT(ended.out, HasSubstr("node 'b' runs twice, as process " + std::to_string(nodes.front())));
   EXPECT_TRUE(ProcessesWith("--run by-hand").empty());
 }
 

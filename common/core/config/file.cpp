@@ -196,13 +196,13 @@ std::vector<base::Error> File::Problems() const {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
       if (!item.first.IsScalar()) {
-        all.push_back({LineOf(item.first), "config.wrong_key", "a key is no plain word", ""});
+        all.push_back({LineOf(item.first), "config.wrong_key", "a key is not a scalar", ""});
         continue;
       }
       const std::string key = item.first.Scalar();
       if (!seen.insert(key).second)
         all.push_back({LineOf(item.first), "config.duplicate_key",
-                       fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
+                       fmt::format("key '{}' appears twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
       if (strange.size() + misspelt.size() >= kMaxUnknown) break;
       std::set<std::string, std::less<>> known = asked.keys;

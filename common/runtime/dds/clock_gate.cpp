@@ -94,7 +94,7 @@ base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& n
   if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return {};
   return base::WrongInput(
       "run.duplicate_node",
-      fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them",
+      fmt::format("node '{}' runs twice, as process {} on host {} and as process {} on host {}; end one of them",
                   named.node, known.pid, known.host, now.pid, now.host));
 }
 

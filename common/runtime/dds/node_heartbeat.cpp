@@ -122,7 +122,7 @@ void NodeBus::Heartbeat() {
     LookAtAddressSpace(grant);
     if (silent && !grant.over && !grant.abort)
       EndEarly(LifeEvent::kFailed,
-               fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+               fmt::format("the clock has sent nothing for {:.1f} s: it was killed, stopped or cut off",
                            static_cast<double>(settings_.clock_silence.count()) / 1e3));
     if (g_terminated != 0 && !grant.over)
       EndEarly(LifeEvent::kLost, fmt::format("was told to end by signal {} (Terminated)", SIGTERM));

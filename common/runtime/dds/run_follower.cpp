@@ -139,7 +139,7 @@ class Follower {
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
       if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
         return ReportFault(base::Failed(
-            "run.clock_lost", fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+            "run.clock_lost", fmt::format("the clock has sent nothing for {:.1f} s: it was killed, stopped or cut off",
                                           std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);

@@ -75,7 +75,7 @@ class ProcessContext final : public launch::NodeContext {
     while (!summary && !mailbox_.grant().abort && std::chrono::steady_clock::now() < until) woken.wait_for(lock, 20ms);
     lock.unlock();
     reader.value().reset();  // its callback uses what lies on this stack
-    if (!summary) return base::Failed("run.no_answer", "the road server says nothing of the world");
+    if (!summary) return base::Failed("run.no_answer", "the road server has not answered");
     return *summary;
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override {
@@ -106,7 +106,7 @@ class ProcessContext final : public launch::NodeContext {
   bool is_restarted() const override { return incarnation_ > 0; }
   base::Result<lockstep::Step> LastRecordedStep() override {
     const auto grant = bus_.AwaitGrant(std::chrono::milliseconds(launch().watchdog().start_ms));
-    if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
+    if (!grant) return base::Failed("run.no_answer", "the clock has not answered a restarted node");
     return grant->safe;
   }
   std::function<void(lockstep::Step)> RecordedStepReporter() override {
@@ -133,7 +133,7 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
   if (context.roster().node(context.index()).keeps_snapshots()) bus.SetSafe(context.has_through());
   for (;;) {  // a clock that takes the place of a lost one may name a later snapshot
     const auto grant = bus.AwaitGrant(limit, true);
-    if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
+    if (!grant) return base::Failed("run.no_answer", "the clock has not answered a restarted node");
     const lockstep::Beginning beginning =
         lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
     settings.sink_from = beginning.sink_from;

@@ -27,7 +27,7 @@ std::uint64_t SegmentFileBytes(std::uint32_t segment_kib) { return (segment_kib 
 
 base::Error NoRoom(const std::filesystem::path& folder, const std::string& why) {
   return base::Failed("dds.shared_memory_full",
-                      fmt::format("shared memory takes no more files: {}; sudo mount -o remount,size=512M {}, or "
+                      fmt::format("shared memory is full: {}; sudo mount -o remount,size=512M {}, or "
                                   "transport: udp",
                                   why, folder.string()),
                       folder.string());

@@ -95,7 +95,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
                                                                              : 1;
     if (silence_ms > patience * settings_.silence_ms) {
       return Fault{n,
-                   fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off",
+                   fmt::format("node '{}' has sent nothing for {:.2f} s at step {}: it was killed, stopped or cut off",
                                spec.name, static_cast<double>(silence_ms) / 1e3, incarnation.report.progress),
                    1, true};
     }

@@ -80,10 +80,11 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     flow.route = number.value();
     if (flow.route >= 0) {
       if (flow.track < 0)
-        return base::WrongInput("traffic.no_lane_named",
-                                fmt::format("the flow of the route '{}' says no lane; one was expected where it comes",
-                                            flow_settings.route),
-                                flow_settings.place);
+        return base::WrongInput(
+            "traffic.no_lane_named",
+            fmt::format("the flow of the route '{}' names no lane; the lane where it enters was expected",
+                        flow_settings.route),
+            flow_settings.place);
       const Route& route = demand.route(flow.route);
       const auto track = static_cast<std::uint32_t>(flow.track);
       if (!route.Reaches(route.LegOn(0, track), track)) {

@@ -53,7 +53,7 @@ base::Result<double> FialaNumber(const TirText& tir, std::string_view name, std:
   for (const TirEntry& entry : tir.entries) {
     if (entry.key != key) continue;
     if (found != nullptr)
-      return base::WrongInput("tyre.duplicate_key", fmt::format("'{}' stands in line {} already", key, found->line),
+      return base::WrongInput("tyre.duplicate_key", fmt::format("'{}' is given in line {} already", key, found->line),
                               FialaPlace(name, entry));
     found = &entry;
   }

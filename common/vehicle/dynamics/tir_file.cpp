@@ -111,7 +111,7 @@ class TirReader {
     const auto number = TirNumber(entry.value);
     if (!number) return Wrong(fmt::format("'{}' is '{}'; a number was expected", entry.key, entry.value), entry.line);
     if (const auto [first, is_new] = lines_.emplace(key, entry.line); !is_new)
-      return Wrong(fmt::format("'{}' stands in line {} already", entry.key, first->second), entry.line);
+      return Wrong(fmt::format("'{}' is given in line {} already", entry.key, first->second), entry.line);
     if (key == "FZMIN")
       fzmin_ = *number;
     else if (key == "LIP")

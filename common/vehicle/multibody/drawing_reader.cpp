@@ -70,7 +70,7 @@ Vector3d DrawingReader::ThreeNumbers(const DeclaredMap& map, std::string_view ke
 
 bool DrawingReader::IsNew(const Map& map, const std::string& name) {
   if (!entities_.contains(name) && !markers_.contains(name)) return true;
-  map.Problem(name, "config.duplicate_name", fmt::format("the name '{}' stands for something else already", name));
+  map.Problem(name, "config.duplicate_name", fmt::format("the name '{}' is in use already", name));
   return false;
 }
 
@@ -154,7 +154,7 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name, const D
         continue;
       }
       if (std::find(into.begin(), into.end(), at->second) != into.end()) {
-        list.Problem(i, "config.duplicate_name", fmt::format("'{}' stands twice in '{}'", entity, key));
+        list.Problem(i, "config.duplicate_name", fmt::format("'{}' appears twice in '{}'", entity, key));
         good = false;
         continue;
       }

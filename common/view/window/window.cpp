@@ -43,20 +43,20 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
   window->kind_ = settings.kind;
   const bool wanted = settings.kind == Kind::kWindow;
   if (wanted && !base::NamesDisplay())
-    return base::WrongInput("view.no_display", "a window is wanted, but there is no display; set DISPLAY");
+    return base::WrongInput("view.no_display", "a window is requested, but there is no display; set DISPLAY");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the program's
   SDL_SetMainReady();
   if (SDL_VideoInit(wanted ? nullptr : "offscreen") != 0) {
     return base::WrongInput(
         wanted ? base::ErrorId("view.no_display") : base::ErrorId("view.no_opengl"),
-        wanted ? std::string("a window is wanted, but no display answers (") + SDL_GetError() + "); set DISPLAY"
+        wanted ? std::string("a window is requested, but no display answers (") + SDL_GetError() + "); set DISPLAY"
                : std::string("OpenGL without a display does not start (") + SDL_GetError() +
                      "); the packages libegl1 and libegl-mesa0 were expected");
   }
   window->video_ = true;
   if (wanted && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("view.no_display", "a window is wanted, but no display answers (" + base::NamedDisplay() +
-                                                   "); another DISPLAY was expected");
+    return base::WrongInput("view.no_display", "a window is requested, but no display answers (" +
+                                                   base::NamedDisplay() + "); another DISPLAY was expected");
   }
   if (auto status = window->Make(settings); !status) return status.error();
   return window;

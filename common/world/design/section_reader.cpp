@@ -99,7 +99,7 @@ Sides ReadLanes(const Keys& keys, const Context& context, const Falls& falls) {
       item.map().Problem("id",
                          "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
     if (!sides.emplace(id, ReadLane(item, id, context, falls)).second)
-      item.map().Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", id));
+      item.map().Problem("id", "config.duplicate_name", fmt::format("lane {} appears twice", id));
   }
   if (map.Has("lanes") && lanes.size() == 0)
     map.Problem("lanes", "config.too_few", "'lanes' is empty; a road needs at least one lane");

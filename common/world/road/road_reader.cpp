@@ -87,7 +87,7 @@ void ReadLanes(const Map& map, SectionSpec& section) {
     if (lane.id == 0)
       item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
     if (!ids.insert(lane.id).second)
-      item.Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", lane.id));
+      item.Problem("id", "config.duplicate_name", fmt::format("lane {} appears twice", lane.id));
     section.lanes.push_back(lane);
   }
   if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "config.too_few", "a road needs at least one lane");

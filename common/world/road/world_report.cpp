@@ -177,11 +177,10 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
 base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_deg, double latitude_deg) {
   const std::string projection = ProjectionOf(world);
   if (projection.empty())
-    return base::WrongInput(
-        "world.no_projection",
-        "the world does not say where on the earth it lies: its terrain has no projection, its roads have no "
-        "geoReference",
-        world.name());
+    return base::WrongInput("world.no_projection",
+                            "the world has no position on the earth: its terrain has no projection, its roads have no "
+                            "geoReference",
+                            world.name());
   const auto map = terrain::Geographic::Make(projection);
   if (!map) return map.error();
   const auto place = map.value().ToMap({longitude_deg, latitude_deg});

@@ -54,12 +54,12 @@ void CheckWays(const MapFile& map, Findings& findings) {
     if (index.Find(line.value.id) != i) continue;  // its number is another lane's
     const LaneMode mode = line.value.mode;
     if (!leaves[i] && !arrives[i]) {
-      findings.Add(Severity::kError, line, "map.unconnected_lane", "no connection comes or goes");
+      findings.Add(Severity::kError, line, "map.unconnected_lane", "it has neither predecessor nor successor");
     } else if (mode != LaneMode::kEnd && !leaves[i]) {
       findings.Add(Severity::kError, line, "map.dead_end",
-                   "it leads nowhere: no connection goes on, and it is no end lane");
+                   "it is a dead end: it has no successor and is not an end lane");
     } else if (mode == LaneMode::kEnd && leaves[i]) {
-      findings.Add(Severity::kWarning, line, "map.goes_on_behind_end", "a connection goes on, but vehicles end here");
+      findings.Add(Severity::kWarning, line, "map.goes_on_behind_end", "it has a successor, but is an end lane");
     }
     if (!starts.empty() && !reached[i] && (leaves[i] || arrives[i]))
       findings.Add(Severity::kWarning, line, "map.unreachable_lane", "no start lane leads to it");

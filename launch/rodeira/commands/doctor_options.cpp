@@ -10,15 +10,15 @@ namespace rodeira::cli {
 
 void AddDoctor(CLI::App& app, ChosenCommand& chosen) {
   const auto options = std::make_shared<DoctorOptions>();
-  CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
+  CLI::App* doctor = app.add_subcommand("doctor", "check this PC: packages, GL, DDS, ports, shared memory");
   doctor->add_option("--transport", options->transport, "of the DDS loop-back")
       ->check(OneOf({"shared_memory", "udp"}))
       ->capture_default_str();
   doctor->add_option("--domain", options->domain, "DDS domain, 0 to 232")
       ->check(Between(0, 232))
       ->capture_default_str();
-  doctor->add_flag("--quiet", options->quiet, "only what is not well");
-  doctor->add_flag("--clean", options->clean, "first remove what dead processes of yours left in /dev/shm");
+  doctor->add_flag("--quiet", options->quiet, "only warnings and faults");
+  doctor->add_flag("--clean", options->clean, "first remove what ended processes of yours left in /dev/shm");
   doctor->add_option("--answer", options->answer)->group("");  // the second process of the loop-back
   doctor->add_option("--segment-kib", options->segment_kib)->group("");
   doctor->add_flag("--devices", options->devices)->group("");  // by rodeira-graphics, for the doctor of `rodeira`

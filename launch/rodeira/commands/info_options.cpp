@@ -10,7 +10,7 @@ namespace rodeira::cli {
 
 void AddInfo(CLI::App& app, ChosenCommand& chosen) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* info = app.add_subcommand("info", "what a recording holds, and whether every sample is there");
+  CLI::App* info = app.add_subcommand("info", "contents of a recording, and whether samples are missing");
   info->add_option("FILE.mcap", *file, "recording")->required();
   chosen.When(*info, [file] { return Info(*file); });
 }

@@ -14,7 +14,7 @@ void AddMap(CLI::App& app, ChosenCommand& chosen) {
   CLI::App* map = app.add_subcommand("map", "traffic maps (.motors): check and convert them");
   map->require_subcommand(1);
   for (const auto& [name, text] :
-       {std::pair("check", "name everything that is wrong, and what the map holds"),
+       {std::pair("check", "name every problem, and describe the map"),
         std::pair("convert",
                   "draw it (.svg), or write it as OpenDRIVE (.xodr) or as a world of this project (.yaml)")}) {
     CLI::App* command = map->add_subcommand(name, text);

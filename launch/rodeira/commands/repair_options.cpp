@@ -11,7 +11,7 @@ namespace rodeira::cli {
 void AddRepair(CLI::App& app, ChosenCommand& chosen) {
   const auto file = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>();
-  CLI::App* repair = app.add_subcommand("repair", "write what is left of a damaged recording as a whole one");
+  CLI::App* repair = app.add_subcommand("repair", "write the readable part of a damaged recording as a valid one");
   repair->add_option("FILE.mcap", *file, "recording")->required();
   repair->add_option("--out", *out, "the new file")->required();
   chosen.When(*repair, [file, out] { return RepairRecording(*file, *out); });

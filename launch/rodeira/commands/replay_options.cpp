@@ -22,7 +22,7 @@ void AddReplay(CLI::App& app, ChosenCommand& chosen) {
   replay->add_option("FILE.mcap", options->file, "recording")->required();
   CLI::Option* view = replay->add_flag("--view", options->view, "watch it, or the branch, in a window");
   replay->add_option("--speed", options->watch.speed, "times real time, 0.1 to 10")->needs(view)->capture_default_str();
-  replay->add_flag("--paused", options->watch.paused, "begin standing still")->needs(view);
+  replay->add_flag("--paused", options->watch.paused, "begin paused")->needs(view);
   CLI::Option* frames =
       replay->add_option("--frames", options->watch.frames, "folder: write pictures (PNG) as the run's view would have")
           ->check(NewFolder());

@@ -13,7 +13,7 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
   const auto options = std::make_shared<TrafficOptions>();
   CLI::App* traffic = app.add_subcommand("traffic", "the traffic model alone, for studies");
   traffic->require_subcommand(1);
-  CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
+  CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and print the results");
   run->add_option("MAP", options->map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors), or a world's name")
       ->required();
   run->add_option("--vehicles", options->vehicles, "how many there are; where there are flows, at most at a time")

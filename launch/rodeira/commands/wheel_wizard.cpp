@@ -58,9 +58,7 @@ base::Status WheelWizard::Step(double dt_s) {
     ++number_;
   }
   if (waited_s_ > kPatience_s)
-    return base::Failed(
-        "device.no_answer",
-        fmt::format("for {:.0f} s nothing that was asked for has happened; nothing was written", kPatience_s));
+    return base::Failed("device.no_answer", fmt::format("no input for {:.0f} s; nothing was written", kPatience_s));
   return {};
 }
 

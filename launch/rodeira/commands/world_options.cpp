@@ -14,7 +14,7 @@ namespace rodeira::cli {
 
 void AddWorld(CLI::App& app, ChosenCommand& chosen) {
   const auto options = std::make_shared<WorldOptions>();
-  CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
+  CLI::App* world = app.add_subcommand("world", "check, describe and query a world");
   world->require_subcommand(1);
   const auto run = [&options](const char* name) {
     return [options, name] {

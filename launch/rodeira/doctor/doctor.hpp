@@ -27,7 +27,7 @@ std::string FindingLine(const Finding& finding);
 // 0, or 1 where there is a fault.
 int StatusOf(std::span<const Finding> findings);
 
-// Prints a line a check (with --quiet only what is not well). The exit status comes back.
+// Prints a line a check (with --quiet only warnings and faults). The exit status comes back.
 int Doctor(const DoctorOptions& options);
 
 }  // namespace rodeira::cli

@@ -251,8 +251,9 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   if (!refused.empty()) {
     return Fault(
         "system.no_recording_folder", check,
-        fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record",
-                    folder.string(), there.string(), refused));
+        fmt::format(
+            "recordings are written to {}, but {} is not writable ({}); set XDG_DATA_HOME or name each by --record",
+            folder.string(), there.string(), refused));
   }
   const std::uint64_t free_bytes = static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
   const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(),

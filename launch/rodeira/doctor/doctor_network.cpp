@@ -56,7 +56,7 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
   }
   if (const std::string problem = WriteProblem(folder); !problem.empty()) {
     return Fault("system.no_shared_memory", check,
-                 fmt::format("{0} takes no files ({1}); it was expected to be writable for all users: sudo "
+                 fmt::format("{0} is not writable ({1}); it was expected to be writable for all users: sudo "
                              "chmod 1777 {0}, or use transport: udp",
                              where, problem));
   }

@@ -193,7 +193,8 @@ base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, con
   if (!spec.with_view) return changes;
   const std::string view = NodeOfKind(parent.launch(), "view");
   if (view.empty())
-    return base::WrongInput("replay.no_view", "a view is wanted, but the recorded launch file has none", spec.parent);
+    return base::WrongInput("replay.no_view", "a view is requested, but the recorded launch file has none",
+                            spec.parent);
   changes.emplace_back("nodes." + view + ".config.window", "always");
   changes.emplace_back("nodes." + view + ".config.frames", "~");  // pictures of the parent's
   return changes;

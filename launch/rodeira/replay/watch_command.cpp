@@ -40,11 +40,11 @@ base::Status Watch(const WatchOptions& options) {
   const auto seen = LookAt(run.value(), options);
   if (!seen) return seen.error();
   if (!nodes::HasDisplay()) {
-    return base::WrongInput(
-        "view.no_display",
-        "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without "
-        "one",
-        "--view");
+    return base::WrongInput("view.no_display",
+                            "a window is requested, but no display answers; set DISPLAY, or let --frames FOLDER --at S "
+                            "write pictures without "
+                            "one",
+                            "--view");
   }
   MarksReader marks(options.file);
   auto window = nodes::ReplayWindow::Open(seen.value().settings, [&]() -> base::Result<nodes::ReadWorld> {

@@ -30,8 +30,8 @@ base::Result<std::filesystem::path> ControlFolder() {
   struct stat found {};
   if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != ::getuid() ||
       (found.st_mode & 077) != 0) {
-    return base::Failed("run.no_control_socket",
-                        "this is no folder that belongs to you alone; no control socket can be there", folder.string());
+    return base::Failed("run.no_control_socket", "the folder is not yours alone, so no control socket is created in it",
+                        folder.string());
   }
   return folder;
 }

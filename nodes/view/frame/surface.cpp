@@ -11,7 +11,7 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr const char* kNoDisplay =
-    "a window is wanted, but there is no display; set DISPLAY, or --headless ('window: never')";
+    "a window is requested, but there is no display; set DISPLAY, or --headless ('window: never')";
 
 // Starts SDL's video with one of its drivers, or nullptr for the display's own.
 bool StartVideo(const char* driver) {
@@ -61,7 +61,7 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
     return base::WrongInput(
         kind == SurfaceKind::kWindow ? base::ErrorId("view.no_display") : base::ErrorId("view.no_opengl"),
-        std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
+        std::string(kind == SurfaceKind::kWindow ? "a window is requested, but no display answers ("
                                                  : "OpenGL without a display does not start (") +
             SDL_GetError() +
             (kind == SurfaceKind::kWindow ? "); set DISPLAY, or --headless ('window: never')"
@@ -69,7 +69,8 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   }
   surface->video_ = true;
   if (kind == SurfaceKind::kWindow && !window::IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("view.no_display", "a window is wanted, but no display answers (" + base::NamedDisplay() +
+    return base::WrongInput("view.no_display", "a window is requested, but no display answers (" +
+                                                   base::NamedDisplay() +
                                                    "); another DISPLAY was expected, or 'window: never'");
   }
   if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status)

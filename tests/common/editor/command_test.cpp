@@ -144,7 +144,7 @@ TEST(Command, WhatCannotBeIsRefusedWithASentence) {
       },
       "one above 0");
   ExpectRefused(
-      history, [](Document& d) { return Remove(d, {}); }, "nothing is chosen");
+      history, [](Document& d) { return Remove(d, {}); }, "nothing is selected");
   ExpectRefused(
       history, [](Document& d) { return SetFlow(d, 2, 5.0); }, "no start lane");
   ExpectRefused(

@@ -49,7 +49,7 @@ TEST_F(ASession, AFaultyMapIsNotSavedAndTheFaultyElementIsChosen) {
   ASSERT_TRUE(session_.Do([](Document& d) { return NewLane(d, Side(1), Side(4), traffic_map::LaneMode::kStart); }));
   EXPECT_TRUE(session_.unsaved());
   EXPECT_FALSE(session_.Save(At("a.motors")));
-  EXPECT_EQ(session_.said().text, "not saved: lane 4: no connection comes or goes");
+  EXPECT_EQ(session_.said().text, "not saved: lane 4: it has neither predecessor nor successor");
   EXPECT_EQ(session_.selection.lanes, std::set<std::int32_t>{4});
   EXPECT_EQ(base::ReadText(At("a.motors")).value(), traffic_map::GoodMap());
   EXPECT_TRUE(session_.Save(At("draft.motors"), true)) << "a draft is saved despite errors";

@@ -231,7 +231,7 @@ TEST(ViewNodeWithoutDisplay, AWindowThatMustBeIsRefused) {
     return node.ok() ? std::string() : std::to_string(node.error().exit_status()) + " " + node.error().Text();
   };
   const std::string said = make("{window: always}");
-  EXPECT_EQ(said.substr(0, 20), "2 a window is wanted") << said;
+  EXPECT_EQ(said.substr(0, 23), "2 a window is requested") << said;
   EXPECT_NE(said.find("'window: never'"), std::string::npos) << said;
   EXPECT_EQ(make("{window: auto}"), "") << "without frames and display there is nothing to do, and that is fine";
 }

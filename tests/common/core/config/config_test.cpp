@@ -107,7 +107,7 @@ TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
                        "folder/car.yaml:1: 'a_m' is -1; a number at least 0 was expected",
                        "folder/car.yaml:1: key 'g_m' is missing; a number was expected",
                        "folder/car.yaml:2: 'b_m' is 'long'; a number was expected",
-                       "folder/car.yaml:3: key 'c.d' stands twice",
+                       "folder/car.yaml:3: key 'c.d' appears twice",
                        "folder/car.yaml:4: item 2 of 'e' is 'x'; a number finite was expected",
                        "folder/car.yaml:5: 'f' is 'violet'; did you mean 'violin'?",
                    }));

@@ -42,7 +42,7 @@ TEST_F(WatchdogTest, NamesASilentNode) {
       EXPECT_EQ(fault->node, 0u);
     }
     if (now == 950) {
-      EXPECT_EQ(fault->reason, "node 'car' has said nothing for 0.65 s at step 7: it was killed, stopped or cut off");
+      EXPECT_EQ(fault->reason, "node 'car' has sent nothing for 0.65 s at step 7: it was killed, stopped or cut off");
     }
   }
 }

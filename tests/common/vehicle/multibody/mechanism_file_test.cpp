@@ -41,7 +41,7 @@ TEST(MechanismFile, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(Refusal("mass_kg: 1", "mas_kg: 1"), HasSubstr("mass_kg"));
   EXPECT_THAT(Refusal("mass_kg: 1", "mass_kg: -1"), HasSubstr("bar.yaml:7: 'bodies.crank.mass_kg' is -1"));
   EXPECT_THAT(Refusal("points: [A, B]", "points: [A, D]"), HasSubstr("'D' is no point"));
-  EXPECT_THAT(Refusal("points: [A, B]", "points: [A, A]"), HasSubstr("stands twice"));
+  EXPECT_THAT(Refusal("points: [A, B]", "points: [A, A]"), HasSubstr("appears twice"));
   EXPECT_THAT(Refusal("kind: rod", "kind: rot"), HasSubstr("did you mean 'rod'"));
   EXPECT_THAT(Refusal("points: [B, C]", "points: [B, X]"), HasSubstr("bar.yaml:9: 'X' is no point"));
   EXPECT_THAT(Refusal("[1, 0, 0]", "[1, 0]"), HasSubstr("three were expected"));

@@ -163,7 +163,7 @@ TEST(Window, WithoutADisplayThereIsASentence) {
     if (!kept[i].empty()) ::setenv(names[i], kept[i].c_str(), 1);
   }
   ASSERT_FALSE(opened.ok());
-  EXPECT_EQ(opened.error().Text(), "a window is wanted, but there is no display; set DISPLAY");
+  EXPECT_EQ(opened.error().Text(), "a window is requested, but there is no display; set DISPLAY");
   EXPECT_EQ(opened.error().exit_status(), 2);
 }
 

@@ -128,7 +128,7 @@ TEST(WorldFile, EveryKindOfMistakeGetsItsSentence) {
       {"s_m: 90, z_m: 105", "s_m: 90, z_m: 160",
        "the grade before this point of 'vertical' is 0.667; at most 0.5 was expected"},
       {"{id: 1, width_m: 3,", "{id: 0, width_m: 3,", "a lane's 'id' is 0"},
-      {"{id: 1, width_m: 3,", "{id: -1, width_m: 3,", "sample.yaml:40: lane -1 stands twice"},
+      {"{id: 1, width_m: 3,", "{id: -1, width_m: 3,", "sample.yaml:40: lane -1 appears twice"},
       {"{id: 1, width_m: 3,", "{id: 3, width_m: 3,", "there is a lane 3 but no lane 2 between it and the axis"},
       {"speed_limit_kmh: 60", "speed_limit_mph: 60", "'roads[0].section.lanes[1].speed_limit_mph' … 'speed_limit_kmh'"},
       {"surface: gravel", "surface: gravle",

@@ -168,7 +168,7 @@ TEST(Disk, TheFolderOfRecordingsMustTakeThem) {
   EXPECT_THAT(blocked.sentence, HasSubstr(file.string() + " is no folder"));
   const Finding refused = CheckDisk("/proc/rodeira", 1);
   EXPECT_EQ(refused.verdict, Verdict::kFault);
-  EXPECT_THAT(refused.sentence, HasSubstr("/proc takes no files"));
+  EXPECT_THAT(refused.sentence, HasSubstr("/proc is not writable"));
 }
 
 }  // namespace

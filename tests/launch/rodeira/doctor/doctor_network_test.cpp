@@ -28,7 +28,7 @@ TEST(SharedMemory, AFolderThatIsMissingOrRefusesIsAFaultOneThatIsFullAWarning) {
               HasSubstr("there is no folder " + (folder.path() / "shm").string() + "; a tmpfs was expected there"));
   const Finding refused = CheckSharedMemory("/proc");  // takes no files from any user, root included
   EXPECT_EQ(refused.verdict, Verdict::kFault);
-  EXPECT_THAT(refused.sentence, HasSubstr("/proc takes no files"));
+  EXPECT_THAT(refused.sentence, HasSubstr("/proc is not writable"));
   const Finding full = CheckSharedMemory(folder.path(), ~0ull);
   EXPECT_EQ(full.verdict, Verdict::kWarning);
   EXPECT_THAT(full.sentence, HasSubstr("MB were expected: a run of 7 processes uses "));

@@ -163,7 +163,7 @@ TEST(SharedMemoryRoom, MoreThanTheFolderHasIsRefusedAndNothingIsLeft) {
   EXPECT_TRUE(dds::TryRoom(1'000'000, folder.path()).ok());
   const auto status = dds::TryRoom(std::uint64_t{1} << 60, folder.path());
   ASSERT_FALSE(status.ok());
-  EXPECT_THAT(status.error().Text(), HasSubstr("shared memory takes no more files: "));
+  EXPECT_THAT(status.error().Text(), HasSubstr("shared memory is full: "));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_FALSE(dds::CheckSpace(1, folder.path() / "missing").ok());
 }
