@@ -42,7 +42,7 @@ speed_factor_low: 0.8
 speed_factor_high: 1.1
 side_margin_m: 0.2
 sight_m: 150
-following: {time_gap_s: 1.2, standing_gap_m: 2, acceleration_mps2: 1.4, braking_mps2: 2, hardest_mps2: 8}
+following: {time_gap_s: 1.2, min_gap_m: 2, acceleration_mps2: 1.4, braking_mps2: 2, max_deceleration_mps2: 8}
 comfort: {lateral_mps2: 2, vertical_mps2: 2, braking_mps2: 1.5, steep_grade: 0.1, steep_factor: 0.8}
 lane_changes: {allowed: true, politeness: 0.2, threshold_mps2: 0.1, bias_mps2: 0.3, safe_mps2: 2, overtaking: true,
   overtaking_sight_m: 300, overtaking_margin_s: 2}

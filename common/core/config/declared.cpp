@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/core/config/declared.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <set>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/log.hpp"
+#include "common/core/config/either.hpp"
 
 namespace rodeira::config {
+namespace {
+
+// Whether this place has no warning yet. A file is often read more than once.
+bool IsFirstWarning(const std::string& place) {
+  static std::mutex mutex;
+  static std::set<std::string> places;
+  const std::lock_guard lock(mutex);
+  return places.insert(place).second;
+}
+
+// The name under which the mapping gives a key: the former one, with a warning, where only that is there.
+std::string_view NameInFile(const Map& map, const Key& key) {
+  if (key.former_name.empty() || !map.Peek({key.former_name})) return key.name;
+  if (RejectConflictingKeys(map, key.name, key.former_name)) return key.name;
+  const std::string place = map.Place(key.former_name);
+  if (IsFirstWarning(place)) {
+    base::Log(base::LogLevel::kWarning, "",
+              fmt::format("{}: '{}' is deprecated; write '{}'", place, key.former_name, key.name));
+  }
+  return key.former_name;
+}
+
+}  // namespace
 
 const Key& DeclaredMap::Declared(std::string_view key, ValueType type) const {
   const Key* found = FindKey(*keys_, key);
@@ -19,7 +48,7 @@ double DeclaredMap::Number(std::string_view key) const {
   if (declared.required) return map_.Number(key, declared.range);
   const double* default_value = std::get_if<double>(&declared.default_value);
   RODEIRA_ASSERT(default_value != nullptr);
-  return map_.Number(key, declared.range, *default_value);
+  return map_.Number(NameInFile(map_, declared), declared.range, *default_value);
 }
 
 double DeclaredMap::Number(std::string_view key, double default_value) const {

@@ -20,7 +20,8 @@ class DeclaredMap {
  public:
   DeclaredMap(Map map, const std::vector<Key>& keys) : map_(std::move(map)), keys_(&keys) {}
 
-  // The value, or the declared default. Where it is wrong: a problem in the file's collection, and the default.
+  // The value, or the declared default. Where it is wrong: a problem in the file's collection, and the default. A value
+  // under the key's former name is taken; one warning a place in a file, on standard error, names the key.
   double Number(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedNumberKey.
   double Number(std::string_view key, double default_value) const;

@@ -169,6 +169,12 @@ Key Since(std::string version, Key key) {
   return key;
 }
 
+Key Renamed(std::string former_name, Key key) {
+  RODEIRA_ASSERT(key.type == ValueType::kNumber && std::holds_alternative<double>(key.default_value));
+  key.former_name = std::move(former_name);
+  return key;
+}
+
 Key Required(Key key) {
   key.required = true;
   key.default_value = {};
@@ -287,7 +293,10 @@ std::string RangeCell(const PlacedKey& placed) {
 std::string MeaningCell(const PlacedKey& placed) {
   const bool items = placed.key->meaning.empty() && placed.container != nullptr;
   const Key& key = items ? *placed.container : *placed.key;
-  return key.since.empty() ? key.meaning : fmt::format("{} Since {}.", key.meaning, key.since);
+  std::string cell = key.meaning;
+  if (!key.since.empty()) cell += fmt::format(" Since {}.", key.since);
+  if (!key.former_name.empty()) cell += fmt::format(" Formerly `{}`.", key.former_name);
+  return cell;
 }
 
 std::string DefaultCell(const PlacedKey& placed) {

@@ -53,7 +53,8 @@ struct Key {
   std::string summary{};      // of kMapping, kWord: not empty, if the reference shows this instead of keys and words
   std::size_t min_items = 0;  // of kList
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
-  std::string since{};  // the version that has it first; empty: kFirstVersion
+  std::string since{};        // the version that has it first; empty: kFirstVersion
+  std::string former_name{};  // of a number with a default: the name in files of earlier versions; empty: none
 };
 
 // A kind of file.
@@ -114,6 +115,8 @@ Key WithDefaultNote(std::string default_note, Key key);
 Key WithSample(std::string sample, Key key);
 // The same key, which versions before `version` do not know.
 Key Since(std::string version, Key key);
+// The same number with a default, which files may still give under `former_name`: the reader takes it, with a warning.
+Key Renamed(std::string former_name, Key key);
 // The same key, required.
 Key Required(Key key);
 // The key `rodeira` with the format, and the optional `name`, which begin every file.

@@ -27,6 +27,11 @@ std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent,
   for (const Key& key : keys) {
     properties.push_back(fmt::format("{}  {}: {}", indent, base::JsonText(key.name), JsonValue(key, indent + "  ")));
     if (key.required) required.push_back(base::JsonText(key.name));
+    if (!key.former_name.empty()) {
+      properties.push_back(
+          fmt::format("{0}  {1}: {{\n{0}    \"description\": {2},\n{0}    \"deprecated\": true\n{0}  }}", indent,
+                      base::JsonText(key.former_name), base::JsonText(fmt::format("Former name of `{}`.", key.name))));
+    }
   }
   return fmt::format(
       "{0}\"type\": \"object\",\n{0}\"properties\": {{\n{1}\n{0}}},\n{2}{0}\"additionalProperties\": {3}", indent,

@@ -22,10 +22,12 @@ config::Schema Make() {
        NumberKey("range_m", {10.0, 1000.0}, a.range_m, "Sight."),
        MappingKey("following",
                   {NumberKey("time_gap_s", {0.2, 10.0}, a.idm.time_gap_s, "T of the IDM."),
-                   NumberKey("standing_gap_m", {0.5, 20.0}, a.idm.min_gap_m, "s0 of the IDM, bumper to bumper."),
+                   config::Renamed("standing_gap_m", NumberKey("min_gap_m", {0.5, 20.0}, a.idm.min_gap_m,
+                                                               "s0 of the IDM, bumper to bumper.")),
                    NumberKey("acceleration_mps2", {0.2, 5.0}, a.idm.acceleration_mps2, "a of the IDM."),
                    NumberKey("braking_mps2", {0.5, 8.0}, a.idm.braking_mps2, "b of the IDM: comfortable braking."),
-                   NumberKey("hardest_mps2", {1.0, 12.0}, a.idm.max_deceleration_mps2, "Hardest braking.")},
+                   config::Renamed("hardest_mps2", NumberKey("max_deceleration_mps2", {1.0, 12.0},
+                                                             a.idm.max_deceleration_mps2, "Largest deceleration."))},
                   "Car following."),
        MappingKey("comfort",
                   {NumberKey("lateral_mps2", {0.3, 8.0}, a.speed.lateral_mps2, "Lateral acceleration in bends."),
@@ -70,10 +72,10 @@ AutopilotSettings ReadAutopilot(const config::Map& map) {
 
   const config::DeclaredMap follow = root.Child("following");
   a.idm.time_gap_s = follow.Number("time_gap_s");
-  a.idm.min_gap_m = follow.Number("standing_gap_m");
+  a.idm.min_gap_m = follow.Number("min_gap_m");
   a.idm.acceleration_mps2 = follow.Number("acceleration_mps2");
   a.idm.braking_mps2 = follow.Number("braking_mps2");
-  a.idm.max_deceleration_mps2 = follow.Number("hardest_mps2");
+  a.idm.max_deceleration_mps2 = follow.Number("max_deceleration_mps2");
 
   const config::DeclaredMap comfort = root.Child("comfort");
   a.speed.lateral_mps2 = comfort.Number("lateral_mps2");

@@ -17,11 +17,13 @@ using config::WordKey;
 config::Key FollowingKey(const driver::IdmSettings& idm) {
   return MappingKey("following",
                     {NumberKey("time_gap_s", {0.2, 10.0}, idm.time_gap_s, "T of the IDM."),
-                     NumberKey("standing_gap_m", {0.5, 20.0}, idm.min_gap_m, "s0 of the IDM, bumper to bumper."),
+                     config::Renamed("standing_gap_m", NumberKey("min_gap_m", {0.5, 20.0}, idm.min_gap_m,
+                                                                 "s0 of the IDM, bumper to bumper.")),
                      NumberKey("acceleration_mps2", {0.2, 5.0}, idm.acceleration_mps2, "a of the IDM."),
                      NumberKey("braking_mps2", {0.5, 8.0}, idm.braking_mps2,
                                "b of the IDM: comfortable braking, also for lines and lights."),
-                     NumberKey("hardest_mps2", {1.0, 12.0}, idm.max_deceleration_mps2, "Hardest braking.")},
+                     config::Renamed("hardest_mps2", NumberKey("max_deceleration_mps2", {1.0, 12.0},
+                                                               idm.max_deceleration_mps2, "Largest deceleration."))},
                     "Car following.");
 }
 

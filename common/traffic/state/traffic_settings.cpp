@@ -44,10 +44,10 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.sight_m = declared.Number("sight_m");
   const config::DeclaredMap follow = declared.Child("following");
   t.idm.time_gap_s = follow.Number("time_gap_s");
-  t.idm.min_gap_m = follow.Number("standing_gap_m");
+  t.idm.min_gap_m = follow.Number("min_gap_m");
   t.idm.acceleration_mps2 = follow.Number("acceleration_mps2");
   t.idm.braking_mps2 = follow.Number("braking_mps2");
-  t.idm.max_deceleration_mps2 = follow.Number("hardest_mps2");
+  t.idm.max_deceleration_mps2 = follow.Number("max_deceleration_mps2");
   const config::DeclaredMap comfort = declared.Child("comfort");
   t.speed.lateral_mps2 = comfort.Number("lateral_mps2");
   t.speed.vertical_mps2 = comfort.Number("vertical_mps2");

@@ -97,6 +97,37 @@ TEST(Schema, AnAbsentKeyHasItsDefault) {
   EXPECT_EQ(root.Items("cars").size(), 0u);
 }
 
+// A renamed key is read under its former name for a while: one warning a place names the new one.
+TEST(Schema, AFormerNameIsReadWithOneWarning) {
+  const Schema schema{"shed", "shed/1", "A shed.",
+                      FileKeys("shed/1", {Renamed("tall_m", NumberKey("height_m", {1.0, 9.0}, 2.0, "Height."))})};
+  const auto height_of = [&](const File& file) { return DeclaredMap(file.root(), schema.keys).Number("height_m"); };
+  const auto file = File::Parse("rodeira: shed/1\ntall_m: 3\n", "former_name.yaml");
+  ASSERT_TRUE(file.ok());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(height_of(file.value()), 3.0);
+  EXPECT_EQ(height_of(file.value()), 3.0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "rodeira: warning: former_name.yaml:2: 'tall_m' is deprecated; write 'height_m'\n");
+  EXPECT_EQ(file.value().root().Text("rodeira"), "shed/1");
+  EXPECT_TRUE(file.value().Finish().ok());
+
+  const auto beyond = File::Parse("{rodeira: shed/1, tall_m: 10}", "former_name_beyond.yaml");
+  (void)height_of(beyond.value());
+  ASSERT_EQ(beyond.value().Problems().size(), 1u);
+  EXPECT_THAT(beyond.value().Problems().front().Text(), HasSubstr("'tall_m'")) << "the bounds are the same";
+  const auto both = File::Parse("{rodeira: shed/1, tall_m: 3, height_m: 4}", "former_name_both.yaml");
+  EXPECT_EQ(height_of(both.value()), 4.0);
+  (void)both.value().root().Text("rodeira");
+  ASSERT_EQ(both.value().Problems().size(), 1u);
+  EXPECT_EQ(both.value().Problems().front().id.text(), "config.conflicting_keys");
+
+  EXPECT_THAT(SchemaMarkdown(schema), HasSubstr("| `height_m` | 2 | 1 to 9 | Height. Formerly `tall_m`. |"));
+  const std::string json = SchemaJson(schema);
+  EXPECT_THAT(json, HasSubstr("\"deprecated\": true"));
+  EXPECT_LT(json.find("\"tall_m\""), json.find("\"deprecated\""));
+}
+
 TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
   const auto file = File::Parse("{rodeira: garage/1, height_m: 2}", "garage.yaml");
   ASSERT_TRUE(file.ok());
