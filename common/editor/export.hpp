@@ -9,10 +9,10 @@
 
 namespace rodeira::editor {
 
-// The map as a world of this project: FILE.yaml, a world file that `rodeira world check` and `rodeira run` take, and
-// its roads as OpenDRIVE 1.7 beside it, FILE.xodr. The latter alone where `path` ends so. Each file is whole or not
-// there; a sentence about what was written comes back. Wrong input where the map is none that can be driven on, failed
-// where a file cannot be written.
+// Exports the map as a world: FILE.yaml, a world file for `rodeira world check` and `rodeira run`, and beside it
+// FILE.xodr, its roads as OpenDRIVE 1.7. If `path` ends in .xodr, only that file. Files are written atomically. Returns
+// a sentence about what was written. Wrong input if the map has no drivable road, failed if a file cannot be
+// written.
 base::Result<std::string> Export(const Document& document, const std::filesystem::path& path);
 
 }  // namespace rodeira::editor

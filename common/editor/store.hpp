@@ -20,39 +20,39 @@ struct Opened {
   LoadedCompanion companion;
 };
 // A map and its companion. Wrong input as traffic_map::LoadMap and traffic_map::LoadHeightsOf; numbers that do not fit
-// together are no hindrance here.
+// together are accepted here.
 base::Result<Opened> Open(const std::filesystem::path& map_file);
 
-// Both files, each whole; where one of them cannot be written (a full disk) both stay as they were. Companion bytes
-// that were loaded and not edited are written as they are; where there is nothing to say, and nothing was loaded, there
-// is no companion afterwards. What was written of the companion comes back.
+// Writes both files atomically; where one of them cannot be written (a full disk) both stay as they were. Companion
+// bytes that were loaded and not edited are written unchanged. An empty companion that was not loaded is not written.
+// Returns the companion as written.
 base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompanion& loaded,
                                    const std::filesystem::path& map_file);
 
-// Unsaved work, kept in a folder of the user's, so that it survives the editor. One keeper a running editor.
+// Autosave: unsaved work, kept in a folder of the user, survives a crash. One keeper per running editor.
 class Keeper {
  public:
-  // `folder`: where all editors keep theirs; it is made. Failed where that cannot be.
+  // `folder`: the autosave folder of all editors; it is created. Failed where it cannot be created.
   static base::Result<Keeper> Make(const std::filesystem::path& folder);
   Keeper(Keeper&& other) noexcept;
   Keeper& operator=(Keeper&&) = delete;
-  ~Keeper();  // what it kept stays
+  ~Keeper();  // does not delete kept work
 
-  // The document as it is now; the picture is written only where `picture_state` is another one than before. `of` is
-  // the file that it belongs to, which may be none.
+  // Keeps the document as it is now; the picture is written only when `picture_state` has changed. `of` is the map
+  // file; empty if the document has none.
   base::Status Keep(const Document& document, const std::filesystem::path& of, std::uint64_t picture_state);
-  // Everything is saved, or given up: nothing is kept any more.
+  // Deletes this editor's kept work, once it is saved or discarded.
   void Forget();
 
-  // What an editor that lives no more has kept, the oldest first.
+  // Work kept by editors that have ended without saving, the oldest first.
   struct Left {
     std::filesystem::path folder;
     std::filesystem::path of;  // empty: it had no file yet
   };
   std::vector<Left> Found() const;
-  // Wrong input where what lies there cannot be read.
+  // Reads kept work. Wrong input where it cannot be read.
   static base::Result<Opened> Restore(const Left& left);
-  // What was kept is deleted.
+  // Deletes kept work.
   static void Discard(const Left& left);
 
  private:

@@ -12,17 +12,17 @@
 
 namespace rodeira::traffic {
 
-// What an agent is told: the deceleration to brake by, the speed to keep to, to forget all, to overtake, the side to
-// change lanes to.
+// A command to a vehicle: brake with a deceleration, keep a speed, end all commands, overtake, change lanes to a
+// side.
 enum class OrderKind : std::uint8_t { kBrake = 0, kSpeed = 1, kRelease = 2, kOvertake = 3, kChangeLane = 4 };
-// Whether that may be told with this value: above 0 of braking and speed, 1 (left) or -1 (right) of a side.
+// Whether the value is valid for the command: above 0 for braking and speed, 1 (left) or -1 (right) for a side.
 bool IsSound(OrderKind kind, double value);
 
-// Told at once.
+// Applies a command to a vehicle at once.
 void ApplyOrder(TrafficModel& model, std::uint32_t id, OrderKind kind, double value);
 
-// What agents are told when they come to a place: as soon as the middle of one has passed a station of a road,
-// whichever way it drives there.
+// A command that vehicles get at a place: as soon as a vehicle's middle has passed a station of a road, in either
+// direction.
 struct PlaceOrder {
   OrderKind kind = OrderKind::kBrake;
   double value = 0.0;      // m/s², m/s, or a side
@@ -32,8 +32,8 @@ struct PlaceOrder {
   std::uint32_t id = 0;  // kOne: this agent, when it passes next
 };
 
-// Orders that wait for a vehicle to pass. Those for one agent, and for the next one, end when they have been obeyed;
-// those for all go on.
+// Commands that wait for a vehicle to pass. Commands for one vehicle, or for the next one, end when they have been
+// applied; commands for all vehicles persist.
 class PlaceOrders {
  public:
   // Wrong input with the nearest name where the network has no such road, or the road is shorter.

@@ -19,7 +19,7 @@
 
 namespace rodeira::traffic {
 
-// What one phase of a step tells later ones, beside Seen and Claimed. Nothing here is saved.
+// Data that a phase of a step passes to later phases, beside Seen and Claimed. Not part of the saved state.
 struct StepColumns {
   StepColumns(std::size_t vehicles, std::size_t tracks, bool late)
       : beside(vehicles),
@@ -41,11 +41,11 @@ struct StepColumns {
   // Controllers that never show green together, in pairs; found at the first request for a light.
   std::optional<std::vector<std::array<std::uint32_t, 2>>> conflicting_lights;
   // By vehicle.
-  std::vector<std::uint8_t> beside, passes;  // it may think of another lane, of overtaking
+  std::vector<std::uint8_t> beside, passes;  // may consider a lane change, overtaking
   std::vector<double> wanted;                // acceleration
   std::vector<Leader> perceived;             // as drivers see them; empty without a reaction time
   std::vector<std::uint8_t> hurries;         // brakes in an emergency
-  std::vector<double> bars;                  // odometer at which it waits for people on foot
+  std::vector<double> bars;                  // odometer at which it waits for pedestrians
   std::vector<std::uint32_t> missed_now;
   std::vector<Leaver> leavers;            // that left in the step, by ascending number
   std::vector<std::uint32_t> removals;    // asked for before the step, ascending

@@ -34,15 +34,15 @@ class MotorsDriver;
 class Pedestrians;
 struct Simulation;
 
-// Cars on the lanes of a network: each draws its way at every branch, follows its leader with the IDM, at
-// the speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to
-// the next place to stand is its own (docs/explanation/traffic.md). A car that reaches the end of its last lane leaves
-// and enters again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never
-// changes, and none is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route
-// or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles,
-// wherever they are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here
-// depends on order of arrival, threads or the clock: the state is Save's, and each step is a function of it and of
-// `others`. One thread calls; a step itself uses the threads of its settings. Points and rectangles lie in W.
+// Vehicles on the lanes of a network. Each chooses its way at random at every branch and follows its leader by the IDM,
+// at the speed that limits, bends and crests allow. It enters conflict zones only with a reservation of all zones up to
+// the next place where it can stop clear of them (docs/explanation/traffic.md). A vehicle that reaches the end of its
+// last lane leaves and enters again at a random entry, as soon as there is a safe gap: the number of vehicles is
+// constant. With flows (DemandSettings) vehicles enter as the flows say, with or without a route, and are removed at
+// the end of their way. They see other vehicles (the driver's car) as rectangles, wherever these are. On roads of
+// several lanes they change lanes by MOBIL. A step is a function of the state (Save) and of `others` alone; order of
+// arrival, threads and the clock do not matter. One thread calls; a step itself uses the threads of its settings.
+// Points and rectangles are in W.
 class TrafficModel {
  public:
   TrafficModel(const TrafficModel& other);

@@ -5,10 +5,10 @@
 
 namespace rodeira::base {
 
-// Whether the environment names a display. Without a name there is no display to ask, and libraries that try complain
-// aloud.
+// Whether the environment names a display. Without one, libraries that try to open a display print errors of their
+// own.
 bool NamesDisplay();
-// How it names it: "DISPLAY=:1"; empty where it does not.
+// The variable with its value: "DISPLAY=:1"; empty without a display.
 std::string NamedDisplay();
 
 }  // namespace rodeira::base

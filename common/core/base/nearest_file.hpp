@@ -10,7 +10,7 @@ namespace rodeira::base {
 // extension) or of the same stem, lies in the same folder; otherwise nothing.
 std::string NearestFile(const std::filesystem::path& path);
 
-// "there is no such file; did you mean ...?" where there is none, or what a link to nothing names; otherwise nothing.
+// "there is no such file; did you mean ...?" if the file is missing, or a link's target is; empty otherwise.
 std::string NoSuchFile(const std::filesystem::path& path);
 
 }  // namespace rodeira::base

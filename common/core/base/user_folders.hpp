@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-// Where a person's own files lie (XDG Base Directory Specification). Nothing is made here.
+// The user's folders (XDG Base Directory Specification). No folder is created here.
 namespace rodeira::base {
 
 // $XDG_DATA_HOME/rodeira, else ~/.local/share/rodeira.

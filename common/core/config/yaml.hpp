@@ -16,12 +16,12 @@
 
 #include "common/core/config/config.hpp"
 
-// What Map, List and File share: the library's nodes, their places and their conversions. For this room's own files.
+// What Map, List and File share: the YAML library's nodes, their places and conversions. Internal to this module.
 namespace rodeira::config {
 
 namespace detail {
 
-// A node of a file that was parsed, or the place of one that is absent.
+// A node of a parsed file, or the place of an absent one.
 struct YamlNode {
   YAML::Node node;  // may be null (absent)
   bool present = true;

@@ -23,19 +23,19 @@
 
 namespace rodeira::driver {
 
-// All that a driver file says.
+// The settings of a driver file.
 struct AutopilotSettings {
   IdmSettings idm;
   SpeedPlanSettings speed{.stop_at_end = true};
   SteeringSettings steering;
   PedalSettings pedals;
   LightSettings lights;
-  double speed_factor = 0.98;   // of the legal limit: slopes and gear changes leave a little over
-  double anticipation_s = 0.5;  // the plan is read so far ahead in time, as pedals and engine take theirs
-  double tracking_s = 1.0;      // time in which a deviation from the plan is made good
-  double side_margin_m = 0.3;   // what comes nearer to the car's sides is in its way
+  double speed_factor = 0.98;   // of the legal limit: a margin for slopes and gear changes
+  double anticipation_s = 0.5;  // preview of the speed plan, for the lag of pedals and engine
+  double tracking_s = 1.0;      // time constant of speed control
+  double side_margin_m = 0.3;   // objects nearer to the car's sides block its way
   double range_m = 150.0;       // sight
-  double far_off_m = 2.5;       // this far beside the lane it drives slowly
+  double far_off_m = 2.5;       // beyond this lateral offset from the lane it drives slowly
   double slowly_mps = 4.0;
 };
 
@@ -49,19 +49,19 @@ struct DriverView {
   const dynamics::VehicleState& own;
   const dynamics::VehicleDimensions& dimensions;
   std::span<const Footprint> others;        // without the own car
-  std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
+  std::span<const LightAhead> lights = {};  // on its route, ascending; also passed ones
 };
 
-// A car as it goes now.
+// State of the car.
 struct CarMotion {
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   double heading_rad = 0.0, speed_mps = 0.0;
   double wheelbase_m = 0.0, front_m = 0.0;  // of the front bumper from B's origin
 };
 
-// What a driver goes by at a moment, for displays.
+// What the driver aims at, for displays.
 struct Aim {
-  double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of the car is not in it
+  double speed_mps = 0.0;  // allowed by limit, bends, crests and the route's end; without leaders and obstacles
   Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // the point of the way that is steered for
   double way_heading_rad = 0.0;                        // of the way beside the car
   Eigen::Vector2d look_ahead_W =
@@ -77,10 +77,10 @@ class Autopilot {
 
   // The controls for the coming dt_s (over 0), from what is seen now.
   dynamics::Controls Step(const DriverView& view, double dt_s);
-  // Goes on from where others have left steering wheel and pedals.
+  // Takes over steering wheel and pedals from another source, where they are.
   void InitialiseFrom(const dynamics::Controls& last);
 
-  // What Step would steer and drive by there; keeps nothing. Nothing beside the way's ends.
+  // What Step would aim at there; changes no state. Nothing beyond the route's ends.
   std::optional<Aim> AimOf(const CarMotion& car) const;
 
   const Way& path() const { return *path_; }

@@ -14,7 +14,8 @@ struct IdmSettings {
 
 // dv/dt = a [1 - (v/v0)^4 - (s*/s)²],  s* = s0 + max(0, v T + v dv / (2 sqrt(a b))), dv = v - leader's speed, s the gap
 // from bumper to bumper. Above the desired speed v0 the free part is -b [1 - (v0/v)^(4a/b)], which slows down
-// comfortably. Returns the acceleration in m/s², held within [-hardest, a]. A gap of 0 or less brakes hardest.
+// comfortably. Returns the acceleration in m/s², clamped to [-max_deceleration_mps2, a]. With a gap of 0 or less it is
+// -max_deceleration_mps2.
 double IdmAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps);
 // Without a leader: the free part alone, m/s².
 double IdmFreeAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps);

@@ -10,7 +10,7 @@
 
 namespace rodeira::driver {
 
-// The middle of a lane at a distance along it, looking the way its traffic goes.
+// The lane's middle at a distance along it, in driving direction.
 struct LaneFrame {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // on the road's surface
   double heading_rad = 0.0;                       // in (-pi, pi]
@@ -18,7 +18,7 @@ struct LaneFrame {
   double grade = 0.0;                             // rise over plan distance, positive uphill
 };
 
-// Something that occupies a stretch of the lane.
+// An object that occupies a part of the lane.
 struct LaneSpan {
   double rear_m = 0.0;  // distances along the lane
   double front_m = 0.0;
@@ -57,7 +57,7 @@ class Way {
   virtual double VerticalCurvature_1pm(double d_m) const = 0;
   // The surface at d, `offset_m` to the left of the middle as its traffic sees it.
   virtual Eigen::Vector3d Position(double d_m, double offset_m) const = 0;
-  // Nothing beside the ends. The height tells levels apart where the way leads over itself.
+  // Nothing beyond the ends. The height selects the level where the route crosses over itself.
   virtual std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const = 0;
 
   // The same as Locate. `hint` only saves work: it is where the search begins, and is set to where it ended.
@@ -66,7 +66,7 @@ class Way {
     return Locate(x_m, y_m, z_m);
   }
 
-  // The stretch that a rectangle takes up, or nothing where its middle is beyond the ends.
+  // The part that a rectangle occupies; nothing if its middle is beyond the ends.
   std::optional<LaneSpan> SpanOf(const Footprint& footprint) const;
   // The same with the hint and range of Near.
   std::optional<LaneSpan> SpanNear(std::size_t& hint, const Footprint& footprint, const Range& range) const;

@@ -10,31 +10,31 @@
 
 namespace rodeira::dds {
 
-// Ends a run: the sentence, and the status to leave with.
+// Why a run ends, and the exit status of the clock's process.
 struct RunTermination {
   std::string reason;
   int status = 1;
 };
 
-// What becomes of a run that has lost a part: named, and then what the node's policy or a person says.
+// Handles the loss of a node: reports it, then applies the node's recovery policy or an operator's command.
 class ClockLosses {
  public:
-  // on_restart: another incarnation of the node is expected; the grant that says so is to be said.
+  // on_restart: called when a new incarnation of the node is expected; the caller then publishes the grant.
   ClockLosses(ClockRun& run, std::function<void(lockstep::NodeIndex)> on_restart)
       : run_(run), on_restart_(std::move(on_restart)) {}
 
-  // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
-  // another incarnation has taken its place.
+  // A loss reported by the node itself or by its supervisor. Returns the termination if the run cannot go on; nothing
+  // if a new incarnation replaces the node.
   std::optional<RunTermination> TakeLost(const LostNode& lost);
-  // The node that the watchdog names, if any.
+  // Handles the node that the watchdog reports, if any.
   std::optional<RunTermination> Watch();
-  // By the operator's word: a sentence of what is done, or why it cannot be.
+  // Restart by an operator's command: returns what is done; an error says why it is not possible.
   base::Result<std::string> RestartByHand(const std::string& name);
 
  private:
   std::optional<RunTermination> HandleLoss(lockstep::NodeIndex node, const std::string& reason, int status);
   std::optional<RunTermination> LoseOthersBeside(lockstep::NodeIndex node, const std::string& reason, int status);
-  // `reason` is empty for a node that goes with another one.
+  // `reason` is empty for a node of the same process as a lost one.
   void Announce(lockstep::NodeIndex node, const std::string& reason);
 
   ClockRun& run_;

@@ -30,9 +30,9 @@ struct DomainSettings {
   std::string name;          // of the participant, for people
   launch::Transport transport = launch::Transport::kSharedMemory;
   launch::Discovery discovery;
-  bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
-  bool meets_later = false;       // processes may be started again in the midst of the run
-  bool is_restarted = false;      // of a process that has died: takes none of its places in shared memory
+  bool serves_discovery = false;  // is the server of DiscoveryKind::kServer: the clock
+  bool meets_later = false;       // processes may be restarted during the run
+  bool is_restarted = false;      // a restarted process: reuses no shared-memory port of its predecessor
   bool has_observers = false;     // with shared memory: samples also go over UDP, for programs that are not Rodeira's
   std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;          // of shared memory, this process'
   std::uint32_t largest_segment_kib = launch::TransportSettings::kSegmentKib;  // that of any process of the run
@@ -45,23 +45,23 @@ struct DomainSettings {
 class Writer {
  public:
   virtual ~Writer() = default;
-  // Failed where the library takes no more.
+  // Fails if the library's history is full.
   virtual base::Status Write(const base::Bytes& payload) = 0;
 };
 
-// Receives payloads on one topic while it lives.
+// Receives payloads on one topic until it is destroyed.
 class Reader {
  public:
   virtual ~Reader() = default;
 };
 
-// Gets every payload on a receive thread of the library: it moves the sample on and returns; it never waits.
+// Called with every payload on a receive thread of the library. Must not block.
 using OnPayload = std::function<void(base::Bytes&&)>;
 
 // A DDS participant, one a process. Its topics are those of DomainSettings::topics.
 class Participant {
  public:
-  // Wrong input where the discovery server's port is in use: the library would silently take another.
+  // Wrong input if the discovery server's port is in use: the library would silently use another one.
   static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
   virtual ~Participant() = default;
   // Both fail where the topic is none of DomainSettings::topics, or the library makes no endpoint. The participant

@@ -12,14 +12,14 @@ namespace rodeira::lockstep {
 class Bus {
  public:
   virtual ~Bus() = default;
-  // To every node that is wired to the sample's source. It may be lost on its way: then its consumer asks for it.
+  // Sends a sample to every node that is wired to its source. It may be lost: then its consumer sends a nack.
   virtual base::Status Publish(const Sample& sample) = 0;
-  // The consumer lacks samples of this source, `gap.from` and what follows: the node that keeps them repeats them. The
-  // nack may be lost too; it is put again as long as the samples are missing.
+  // Requests retransmission of a source's samples from `gap.from` on by the node that keeps them. The nack may be lost,
+  // too; the runner repeats it as long as samples are missing.
   virtual void SendNack(const Gap& gap) = 0;
-  // To the clock.
+  // Sends a report to the clock.
   virtual void Tell(const Report& report) = 0;
-  // To the node that keeps snapshots; the default keeps none.
+  // Sends a snapshot to the node that keeps snapshots; the default discards it.
   virtual void Keep(const Snapshot& /*snapshot*/) {}
 };
 

@@ -19,11 +19,11 @@ class Clock {
   // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
   // snapshot's step), 0 for a run from its start. policies: as Recovery.
   Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0, std::vector<Policy> policies = {});
-  // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants
-  // nothing new before it has heard them all and all are ready. Until it has heard them all, and of each recorder what
-  // its file holds, grant().resume is kUnknown.
+  // This clock replaces a lost one. It learns from the nodes' reports what was granted, and grants nothing new before
+  // every node has reported and is ready. Until then, and until each recorder has reported what its file holds,
+  // grant().resume is kUnknown.
   void Rebuild();
-  // An incarnation that `rodeira run` has started: a clock that takes the place of another one need not have heard it.
+  // An incarnation that `rodeira run` has started. A restarted clock may not have received a report of it yet.
   void NoteIncarnation(NodeIndex node, std::uint32_t incarnation);
 
   // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase
@@ -35,11 +35,11 @@ class Clock {
   bool all_finished() const;
   // All but the sinks have: no sample will come any more.
   bool all_sources_finished() const;
-  // The nodes that have not come as far as `phase`; those that failed never will.
+  // The nodes that have not reached `phase`, failed ones included.
   std::vector<std::string> Missing(Phase phase) const;
   // The smallest next activation of all stepped nodes.
   Step slowest_progress() const;
-  // What may be granted whatever the pace: slowest progress + window.
+  // The last step that may be granted, without regard to the pace: slowest progress + window.
   Step window_limit() const;
 
   // The grant that holds now; `pace_limit` is the last step that the pace allows.
@@ -56,7 +56,7 @@ class Clock {
   Recovery::Decision HandleLoss(NodeIndex node);
   // Another incarnation of the node takes its place; nothing new is granted before it is ready.
   void ExpectRestart(NodeIndex node);
-  // That takes part now; 0: the first.
+  // The incarnation that takes part now; 0: the first.
   std::uint32_t incarnation(NodeIndex node) const {
     return node < grant_.incarnations.size() ? grant_.incarnations[node] : 0;
   }
@@ -85,7 +85,7 @@ class Clock {
   std::vector<Report> reports_;
   std::vector<bool> heard_;
   bool has_predecessor_ = false;
-  bool rebuilding_ = false;  // what it knows is incomplete
+  bool rebuilding_ = false;  // a restarted clock; it has not received all reports yet
   Grant grant_;
 };
 

@@ -16,10 +16,10 @@ struct Nack {
   Gap gap;
 };
 
-// The nacks that one process has heard and not answered. An requester repeats itself until it is answered, faster than
-// a long answer can be given; so of each requester and source only the newest nack stands, and one that is repeated
-// while it is being answered was answered. Therefore there are never more than requesters times sources, however slow
-// the answers are. One thread at a time.
+// The nacks that one process has received and not answered. A requester repeats a nack until it is answered, faster
+// than a long answer can be given. Of each requester and source only the newest nack is kept, and a repeated one is
+// dropped while it is being answered. There are never more than requesters times sources, however slow the answers
+// are. One thread at a time.
 class PendingNacks {
  public:
   // Takes the place of an older nack of this requester about the source. The one that is being answered changes

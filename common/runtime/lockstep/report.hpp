@@ -12,22 +12,22 @@
 
 namespace rodeira::lockstep {
 
-// Where a node stands in its life (life.hpp says which events lead from one to the next).
+// State of a node's life cycle (life.hpp: the events that lead from one state to the next).
 enum class Phase : std::uint32_t {
-  kStarting = 0,  // alive, its model is being made
+  kStarting = 0,  // the process runs, its model is being created
   kReady = 1,     // published its first samples and has those of all others
   kRunning = 2,
   kFinished = 3,  // ran to the final step, everything is closed
   kFailed = 4,    // message says why
-  kRefused = 5,   // the same, and what a person gave is wrong: exit status 2
-  kLost = 6,      // its process was told to end, died or was stopped: message says how
+  kRefused = 5,   // as kFailed, because of wrong input: exit status 2
+  kLost = 6,      // its process was terminated, crashed or stopped; message says how
   kAborted = 7,   // the clock aborted the run, everything is closed
 };
 
-// kOutput: for what it has made, to be written (Node::Flush).
+// What a node waits for. kOutput: its output is being written (Node::Flush).
 enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3, kOutput = 4 };
 
-// A step that is not known yet, by a part that takes the place of a lost one.
+// A step that a restarted process does not know yet.
 inline constexpr Step kUnknown = -2;
 
 // What a node tells the clock: its progress each quarter window, before it blocks on the grant, and as a heartbeat.

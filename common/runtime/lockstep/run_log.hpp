@@ -90,34 +90,34 @@ class RunLog {
   bool closed_ = false;
 };
 
-// Batches that were said, for readers that missed some: the newest kMost of them. For one thread.
+// Published batches, kept for retransmission: the newest kMost. For one thread.
 class KeptLog {
  public:
   static constexpr std::size_t kMost = 2000;
   // In ascending order of their numbers.
   void Add(const LogBatch& batch);
-  // Those from `number` on, at most 64 at a time: a reader that lacks more asks again.
+  // The batches from `number` on, at most 64 per call; a reader that lacks more sends another nack.
   std::vector<LogBatch> From(std::uint64_t number) const;
 
  private:
   std::deque<LogBatch> batches_;
 };
 
-// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier
-// incarnation of the clock had not said is lost with it. Any thread may call.
+// The recorder's side: restores the order of batches after loss, duplication and reordering. Entries that an earlier
+// incarnation of the clock had not published are lost. Thread-safe.
 class LogInbox {
  public:
-  // One that is here already changes nothing.
+  // Ignores a batch that was received before.
   void Deliver(LogBatch batch);
-  // Earlier ones are there already, in a file.
+  // Batches before `number` are in a file already.
   void BeginAt(std::uint64_t number);
-  // Whole and in order; never waits.
+  // The batches received without a gap, in order. Never blocks.
   std::vector<LogBatch> Take();
-  // The number of the oldest batch that is missing although a later one is here.
+  // The number of the oldest missing batch, if a later one has been received.
   std::optional<std::uint64_t> Gap() const;
-  // The number of the next batch that is not here.
+  // The number of the first batch not yet received.
   std::uint64_t next() const;
-  // Waits until the last batch and all before it are here; false after `limit`.
+  // Waits until all batches up to the last have been received; false after `limit`.
   bool AwaitEnd(std::chrono::milliseconds limit);
 
  private:

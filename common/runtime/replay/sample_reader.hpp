@@ -10,8 +10,8 @@
 
 namespace rodeira::replay {
 
-// Some sources of a recording at any step, forward or backward. Of the file only those chunks are read that hold what
-// is asked for; the last few stay in memory, so that going on and turning back read nothing twice.
+// Random access to the samples of some sources of a recording. Only chunks that hold requested samples are read from
+// the file; the most recent ones are cached, so that stepping forward and backward reads no chunk twice.
 class SampleReader {
  public:
   static constexpr std::size_t kKeptChunks = 8;

@@ -49,12 +49,12 @@ class Route {
   std::vector<std::vector<Left>> left_;     // by leg and track; the last one, when all have been reached: 0 everywhere
 };
 
-// What is asked of a network: which vehicles come where, and where to.
+// Demand of a network: the flows of vehicles, with the track where each enters and its route.
 class Demand {
  public:
   // A flow of the settings, with its indices in the network.
   struct Flow {
-    std::int64_t track = -1;  // where it comes; below 0: by lot where traffic enters
+    std::int64_t track = -1;  // where its vehicles enter; below 0: a random one of the network's entries
     std::int64_t route = -1;
   };
 

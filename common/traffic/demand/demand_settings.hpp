@@ -17,12 +17,12 @@ enum class Arrivals {
   kUniform,  // gaps uniformly distributed between two times, as MOTORS has it
 };
 
-// Vehicles that come to a lane. `place` is file and line, for what is wrong with it.
+// Vehicles that enter on a lane. `place`: file and line, for messages.
 struct FlowSettings {
-  std::string lane;   // ROAD:LANE; empty: where traffic enters, by lot
-  std::string route;  // by its name; empty: by turning shares, and by lot
+  std::string lane;   // ROAD:LANE; empty: a random entry of the network
+  std::string route;  // its name; empty: random turns, weighted by turning shares
   Arrivals arrivals = Arrivals::kPoisson;
-  std::vector<double> per_h;                   // vehicles an hour, of each hour from from_s on; the last one goes on
+  std::vector<double> per_h;                   // vehicles per hour, by hour from from_s; the last persists
   double least_gap_s = 3.0, most_gap_s = 8.0;  // of kUniform
   double from_s = 0.0, to_s = 1e9;
   std::optional<VehicleMix> mix;

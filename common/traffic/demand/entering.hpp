@@ -63,7 +63,7 @@ class Entering {
   };
   Entering(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  // Where it enters on this trip: by lot.
+  // The entry of this trip, drawn at random from the seed, the vehicle and the trip.
   std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
   // The speed from which it can stop before the first zones that are not its own.
   double AtMostForLine(std::uint32_t id);

@@ -47,11 +47,11 @@ class LaneChanges {
   };
   LaneChanges(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  // `even_slowly`: also at a walking pace, where it has another reason.
+  // `even_slowly`: also at walking pace, for another reason than speed.
   bool ThinksOfLanes(std::uint32_t id, std::int64_t step_ns, bool even_slowly = false) const;
   // Whether it must change lanes for its route where only slow vehicles can.
   bool NeedsSlowChange(std::uint32_t id) const;
-  // Whether it is to go round a vehicle that stands before it.
+  // Whether it should drive around a stationary vehicle ahead.
   bool GoesRound(std::uint32_t id) const;
   // Not in junctions, and not while zones ahead are granted to it or are due.
   bool MayLeaveLane(std::uint32_t id, bool even_slowly = false) const;

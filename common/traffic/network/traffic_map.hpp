@@ -33,19 +33,19 @@ struct TrafficMap {
       watched;  // by track: a vehicle on it is in the way of one that begins there or on one that parts from it
   std::vector<bool> reached;  // by track: by ways from where a vehicle may begin; every one where the network does not
                               // say where that is
-  std::vector<bool> zips;     // by zone: two lanes beside one another come together there without any sign, one by one
-                              // from each where it is slow
+  std::vector<bool> zips;     // by zone: two adjacent lanes merge without a sign; at low speed vehicles of both lanes
+                              // merge alternately (zip merge)
   std::vector<std::int8_t> waits_side;  // by zone: the side that turns across oncoming traffic and yields; -1: neither
   Demand demand;
 
   TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
 
-  // A vehicle may begin its way on this track, too.
+  // Adds a track to the entries, where vehicles may begin their trips.
   void LetEnter(std::uint32_t track);
 
-  // One of the entries, each with the same chance, by lot: the one with the own draw, keyed by it and by `draw`, that
-  // is the highest (rendezvous hashing; Thaler, Ravishankar 1998). An entry more takes its share of all draws and
-  // changes none of the others.
+  // A random entry, all equally likely: the one with the highest hash of itself and `draw` (rendezvous hashing; Thaler,
+  // Ravishankar 1998). A further entry takes its share of all draws; every other draw gives the same entry as before.
+  // Returns the entry's track.
   std::uint32_t DrawEntry(std::uint64_t draw) const;
 };
 

@@ -11,18 +11,18 @@
 
 namespace rodeira::traffic {
 
-inline constexpr double kStandingLeader_mps = 0.5;  // a slower leader stands
+inline constexpr double kStandingLeader_mps = 0.5;  // a slower leader counts as stationary
 inline constexpr double kPassingBy_m = 0.3;         // between the sides of two vehicles
 inline constexpr double kPassingStep_m = 1.0;       // between two places that are checked
-inline constexpr double kSlowBody_mps = 5.0;        // a vehicle that is no agent, and slower, may soon stand
-inline constexpr double kBodyBrakes_mps2 = 6.0;     // … and so hard at most
-inline constexpr double kRoomToGoRound_m = 9.5;     // between it and what stands before it …
-inline constexpr double kRoomBraking_mps2 = 3.0;    // … which it brakes so hard to keep
+inline constexpr double kSlowBody_mps = 5.0;        // a slower vehicle outside of the traffic model may soon stop
+inline constexpr double kBodyBrakes_mps2 = 6.0;     // … with at most this deceleration
+inline constexpr double kRoomToGoRound_m = 9.5;     // gap to a stationary obstacle, to drive around it …
+inline constexpr double kRoomBraking_mps2 = 3.0;    // … kept by braking this hard
 
-// How far a vehicle that is no agent drives until it stands, at least.
+// The least stopping distance of a vehicle outside of the traffic model.
 inline double StopsAfter_m(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kBodyBrakes_mps2); }
 
-// Of a gap, the part that a vehicle drives until it meets what comes towards it; all of it where the other one stands.
+// The part of a gap that a vehicle drives until it meets an oncoming one; the whole gap if that is stationary.
 inline double MeetsAfter_m(double gap_m, double speed_mps, double other_mps) {
   return other_mps > -kStandingLeader_mps ? gap_m : gap_m * speed_mps / (speed_mps - other_mps);
 }

@@ -18,7 +18,7 @@
 
 namespace rodeira::traffic {
 
-// Whether there is room behind conflict zones, by how far each vehicle surely comes.
+// Whether there is space behind conflict zones, from the distance that each vehicle certainly travels.
 class Room {
  public:
   struct Reads {
@@ -44,23 +44,23 @@ class Room {
   };
   Room(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  // How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own
-  // (but for the hand's breadth before it at which it may come to rest), behind the vehicles before it as far as those
-  // come, and as far as the holders of its own zones before it let it. One that is told to brake, and one that is no
-  // agent, may stop at once. In a ring of followers the one that closes it counts as standing.
+  // The distance that its front certainly travels, whatever others decide: at most its sight, to the stop line before
+  // zones that it has not reserved (less the margin at which it may stop), behind its leaders as far as these travel,
+  // and as far as earlier reservations of its zones allow. A vehicle under a braking command, or outside of the traffic
+  // model, may stop at once. In a cycle of followers the vehicle that closes the cycle counts as stationary.
   double ReachOf(std::uint32_t id, int depth);
-  // Whether a vehicle has gone so far before this one has long been waiting at the end of its zones. One that stands
-  // starts so long after all that stand in a row before it; one that drives up to such a row comes as far as its end
-  // before.
+  // Whether `other` has travelled way_m before this vehicle has waited long at the end of its zones. A stationary
+  // vehicle starts after all vehicles of the queue ahead of it; a moving one first drives up to the end of the
+  // queue.
   bool LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const;
-  // Whether a standing agent has where to go, as it was seen in the last step: none within 5 m before it or, where it
-  // stands at a line before conflict zones, none up to where it would stand behind them.
+  // Whether a stationary vehicle has free space ahead, as of the last step: no vehicle within 5 m or, at the stop line
+  // of conflict zones, no vehicle up to the place where it would stop behind the zones.
   bool RoomAhead(std::uint32_t id) const;
-  // What others, and it, must know of a vehicle that may come to its zones soon: when, and whether there is room behind
+  // Publishes, for itself and others, when a vehicle may arrive at its zones, and whether there is space behind
   // them.
   void TellComing(std::uint32_t id);
-  // Whether it can stand past the light, behind those that wait there for oncoming traffic, and whether there is room
-  // behind the zones for all of them.
+  // Whether it can wait past the signal, behind vehicles that wait there for oncoming traffic, and whether the space
+  // behind the zones suffices for all of them.
   bool RoomToWait(std::uint32_t id);
 
  private:

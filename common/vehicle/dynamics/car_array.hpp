@@ -20,23 +20,23 @@ namespace rodeira::dynamics {
 // element a car.
 class CarArray {
  public:
-  // A kind of car that others may be of: its number. Wrong input where its wheels envelop the ground, which takes more
-  // questions than an array asks.
+  // Adds a kind of car; returns its index. Wrong input if its wheels envelop the ground, which needs more queries
+  // than an array makes.
   base::Result<std::uint32_t> AddKind(const BicycleSettings& settings);
   // INI of one more car; its index. Refused as by BicycleModel::Initialise; the array is then as before.
   base::Result<std::size_t> Add(std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground);
 
-  // So many places, of which new ones are empty: neither asked for ground nor moved. Cars come to a place and leave it
-  // while the others go on.
+  // Sets the number of places; new ones are empty: without ground queries and motion. Cars may be placed and removed
+  // while others drive.
   void Resize(std::size_t places);
-  // INI of a car at a place, whatever was there. Where it is refused the place is as before.
+  // INI of a car at a place, replacing the car there. If it fails, the place is unchanged.
   base::Status Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground);
-  // The place is empty from now on.
+  // Removes the car of a place.
   void Clear(std::size_t i) { present_[i] = 0; }
   bool present(std::size_t i) const { return present_[i] != 0; }
 
-  // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once,
-  // one batch of all wheels in the order of the cars (law L4); then each car goes by itself, in substeps of at most 1
+  // Steps all cars by dt_s (above 0, at most 0.1 s) with constant controls, one per place. The ground is queried once,
+  // in one batch of all wheels in the order of the cars (law L4); then each car is integrated in substeps of at most 1
   // ms on these planes. The number of threads changes no bit.
   void Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::ThreadPool* pool = nullptr);
 

@@ -10,13 +10,13 @@
 
 namespace rodeira::dynamics {
 
-// The ring stands upright in the wheel's plane. Over the ground at kRingPoints places along the wheel, within
-// kRingReach of the radius to both sides, it comes to rest where it touches first: with its hub at
+// Tyre enveloping by a rigid ring in the wheel's plane. The ground is sampled at kRingPoints places along the wheel,
+// up to kRingReach times the radius R to both sides. The ring is lowered until it touches, with its hub at the height
 //   max over x' of z(x') + sqrt(R² - (x' - x)²),
-// and the plane that the tyre meets is the ring's tangent there. So a plane is itself, to rounding, and over an edge at
-// height z, a distance d ahead, the hub would stand at z + sqrt(R² - d²). Between those places the ground goes on as
-// SUELO's plane at the nearest one (a steeper slope counts as 2): an edge is known to half of their distance, 0.022 R.
-// Across the wheel the plane leans as the ground does where it is touched.
+// and the contact plane is the ring's tangent there. On a plane this is the plane itself, to rounding. At an edge of
+// height z, a distance d ahead, the hub is at z + sqrt(R² - d²). Between the samples the ground is SUELO's plane at the
+// nearest sample (slopes above 2 count as 2), so an edge's position is resolved to half their distance, 0.022 R.
+// Across the wheel the contact plane has the slope of the ground at the contact point.
 inline constexpr int kRingPoints = 41;
 inline constexpr double kRingReach = 0.9;
 
@@ -26,8 +26,8 @@ struct WheelPlaces {
   std::array<Eigen::Vector3d, kWheels> axles_W;
 };
 
-// Asks for the ground under the four wheels as `enveloping` says, in one batch (law L4). Outside of the world a wheel
-// goes on upon the plane that it knows.
+// Queries the ground under the four wheels by the method `enveloping`, in one batch (law L4). Outside of the world a
+// wheel keeps its last contact plane.
 void QueryGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
                  const std::array<WheelGround*, kWheels>& wheels);
 

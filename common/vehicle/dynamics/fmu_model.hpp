@@ -15,26 +15,26 @@
 
 namespace rodeira::dynamics {
 
-// All that a vehicle file of model `fmu` says.
+// The settings of a vehicle file of model `fmu`.
 struct FmuSettings {
   std::filesystem::path fmu;
   FmuNames names;
   std::map<std::string, double> parameters;  // of the FMU, by its names and in its units: set before the first step
   std::map<std::string, std::string> parameter_places;  // "FILE:LINE"
-  Enveloping enveloping = Enveloping::kNone;            // of the ground that it is told
+  Enveloping enveloping = Enveloping::kNone;            // of the ground that the FMU gets
   VehicleDimensions dimensions;
 };
 // Problems stay in the file's collection; the FMU itself is not opened.
 FmuSettings ReadFmu(const config::Map& root);
 
-// A laboratory's own vehicle: an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's
-// plane under each wheel, its outputs the car's motion; how it stands at the beginning is its own business. An FMU that
-// fails stops where it is, and problem() says why.
+// A vehicle from an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's plane under
+// each wheel, its outputs the car's motion. The FMU computes its own initial equilibrium. After an error of the FMU the
+// vehicle stays where it is, and problem() says why.
 class FmuModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build has succeeded.
   explicit FmuModel(const FmuSettings& settings) : settings_(settings) {}
-  // Wrong input where the file is no FMU that drives here.
+  // Wrong input if the file is not an FMU with the variables of a vehicle.
   base::Status Build();
 
   base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
@@ -48,7 +48,7 @@ class FmuModel final : public VehicleModel {
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
   bool can_save() const override { return unit_->can_save_state(); }
-  // What was converted or is missing, a sentence each; to be told once.
+  // Notes about converted units and missing variables, one sentence each, for the log at the start.
   const std::vector<std::string>& notes() const { return variables_.notes; }
 
  private:
@@ -68,7 +68,7 @@ class FmuModel final : public VehicleModel {
   FmuSettings settings_;
   std::unique_ptr<fmi::Unit> unit_;
   FmuVariables variables_;
-  std::unique_ptr<fmi::Instance> instance_;  // dies before the unit
+  std::unique_ptr<fmi::Instance> instance_;  // destroyed before the unit
   double time_s_ = 0.0;
   std::array<WheelGround, kWheels> wheels_;
   Wrench push_;  // of the next step

@@ -26,7 +26,7 @@ enum class PadButton : std::size_t {
 };
 inline constexpr std::size_t kPadButtons = 12;
 
-// What a game pad says now.
+// State of a game pad.
 struct PadReading {
   bool connected = false;
   double stick = 0.0;                  // -1 left … 1 right
@@ -36,22 +36,22 @@ struct PadReading {
   bool Down(PadButton button) const { return down[static_cast<std::size_t>(button)]; }
 };
 
-// The values are choices of this project: nothing need be set up.
+// Defaults of this project; no set-up is needed.
 struct PadSettings {
   double lock_rad = 7.85;            // of the steering wheel, at rest
-  double half_lock_speed_mps = 6.5;  // where only half of it is left
+  double half_lock_speed_mps = 6.5;  // speed at which half of it is available
   double turn_s = 0.5;               // from straight ahead to the lock of that speed
-  double centre_s = 0.3;             // from there back
+  double centre_s = 0.3;             // from the lock back to straight ahead
   double stick_dead_zone = 0.12;     // share of a side
   double stick_exponent = 1.6;       // finer next to the middle
   double trigger_dead_zone = 0.04;
   std::int32_t gears = 5;
 };
 
-// Drives with thumbs. The stick says where between the locks of the present speed (LockAt) the wheel is to be; the
-// wheel goes there at no more than lock(v) / turn_s outwards and lock(v) / centre_s back, and stands at exactly 0 when
-// the stick is let go. Triggers are pedals. Where the pad is away the pedals are released and the steering stays as it
-// is.
+// A driver with a game pad. The stick sets the target angle of the steering wheel, between the locks of the present
+// speed (LockAt). The wheel turns to it at no more than lock(v) / turn_s outwards and lock(v) / centre_s back, to
+// exactly 0 when the stick is released. Triggers are pedals. If the pad is disconnected, pedals are released and the
+// steering angle is held.
 class PadDriver {
  public:
   explicit PadDriver(const PadSettings& settings = {}) : settings_(settings), lever_(settings.gears) {
@@ -62,7 +62,7 @@ class PadDriver {
   dynamics::Controls Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s);
   const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
-  // Goes on from where others have left steering and lever; pedals are released.
+  // Takes over steering angle and gear lever from another source; pedals are released.
   void InitialiseFrom(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;

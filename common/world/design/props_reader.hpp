@@ -7,7 +7,7 @@
 
 namespace rodeira::design {
 
-// 'objects' of a file: what stands at no road; added to `props`. Where there is no terrain under it, it is a
+// Reads 'objects' of a world file, which stand at no road, into `props`. An object without terrain under it is a
 // problem.
 void ReadProps(const config::DeclaredMap& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
                network::Props& props);

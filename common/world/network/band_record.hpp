@@ -15,41 +15,41 @@
 
 namespace rodeira::network {
 
-// Between two stations of a road one cubic each is in force for the middle of the lanes, the height and every lane's
-// edge. What of it is a number there stands here or among the record's numbers, the rest among its cubics.
+// A part of a road in which one cubic each describes the lane offset, the elevation and every lane's edge. Cubics that
+// are constant there are stored as numbers, here or in BandRecords' numbers; the others in BandRecords' cubics.
 struct BandPiece {
-  double from_s_m = 0.0, to_s_m = -1.0;  // for these s, without the last
-  double height_m = 0.0;                 // where level
+  double from_s_m = 0.0, to_s_m = -1.0;  // stations, to_s_m exclusive
+  double height_m = 0.0;                 // if `level`
   std::uint32_t section = 0;
-  std::uint32_t first = 0;           // steady: of BandRecords' numbers; otherwise of its cubics
-  std::uint8_t left = 0, right = 0;  // how many lanes
-  bool steady = false;               // neither the middle of the lanes nor an edge of one changes along the road
-  bool level = false;                // nor does the elevation
-  bool flat = false;                 // the elevation is all of the road's height
+  std::uint32_t first = 0;           // index into BandRecords' numbers if `steady`, else into its cubics
+  std::uint8_t left = 0, right = 0;  // numbers of lanes
+  bool steady = false;               // lane offset and lane edges are constant in the piece
+  bool level = false;                // the elevation is constant, too
+  bool flat = false;                 // no superelevation, crossfall or lane height: the elevation alone counts
 
   // The piece ends before to_s_m.
   bool Holds(double s_m) const { return s_m >= from_s_m && s_m < to_s_m; }
 };
 
-// What is asked of a road where a point lies on one of its bands, side by side in two lines of a cache: copies of the
-// panel, of the lanes and of the height. Found through the road itself they are a dozen places far from one another.
+// The data of a road that a ground query on one of its bands needs, copied into two adjacent cache lines: axis panel,
+// lanes and elevation. In the road itself they are spread over a dozen places in memory.
 struct alignas(128) BandRecord {
-  // The panel's, and about its middle the rectangle that holds the band, a little wider than it is for what these
-  // numbers round off.
+  // The panel's middle and tangent, and about them the rectangle that holds the band, widened by the rounding of
+  // these numbers.
   Eigen::Vector2d middle_W, tangent_W;
   double half_m = 0.0, middle_s_m = 0.0;
-  float half_along_m = 0.0f, right_m = 0.0f, left_m = 0.0f;  // along the tangent, to both sides; across, from and to
+  float half_along_m = 0.0f, right_m = 0.0f, left_m = 0.0f;  // along the tangent; across, right to left
   std::uint32_t road = 0;
   double curvature_1pm = 0.0;     // of a line or an arc; otherwise AxisPanel::detail
   double high_s_m = 0.0;          // where the panel's part of the road ends
-  BandPiece piece;                // about the panel's middle; for no s where the road itself is to be asked
+  BandPiece piece;                // at the panel's middle; empty where the road itself must be queried
   std::uint32_t first_piece = 0;  // of BandRecords: those beside `piece`, ascending
   std::uint8_t pieces = 0;
   std::uint8_t kind = 0;                              // AxisPanel::Kind
   bool closed_before = false, closed_behind = false;  // a gap is closed there
 
   double low_s_m() const { return std::max(middle_s_m - half_m, 0.0); }
-  // The panel without its heading, which no place and no surface asks for.
+  // The panel without its heading, which ground queries do not need.
   geometry::AxisPanel Panel() const {
     const auto its_kind = static_cast<geometry::AxisPanel::Kind>(kind);
     const bool arc = its_kind <= geometry::AxisPanel::Kind::kArc;
@@ -58,7 +58,7 @@ struct alignas(128) BandRecord {
             0.0,        arc ? curvature_1pm : 0.0,
             middle_W,   tangent_W};
   }
-  // True wherever the band's own Holds is.
+  // Conservative: true wherever the band's own Holds is true.
   bool MayHold(const Eigen::Vector2d& p_W) const {
     const Eigen::Vector2d away = p_W - middle_W;
     const double across = geometry::Cross(tangent_W, away);
@@ -68,14 +68,14 @@ struct alignas(128) BandRecord {
 };
 static_assert(sizeof(BandRecord) == 128);
 
-// A lane's outer edge about there.
+// A lane's outer edge near the panel's middle.
 struct alignas(64) LaneRecord {
   geometry::Cubic edge;  // its width, or where it has a border
   int id = 0;
   bool bordered = false, drivable = false;
 };
 
-// The records of all bands. Where a record holds, it gives every bit that the road gives.
+// The records of all bands. Where a record holds, its results equal the road's, bit by bit.
 class BandRecords {
  public:
   // The roads must stay where they are.

@@ -3,7 +3,7 @@
 
 namespace rodeira::network {
 
-// How the ground beside a road passes into the terrain, outward from the outermost lanes' edges (the verges').
+// The transition from road to terrain, outward from the outermost lanes' edges (verges included).
 struct Earthwork {
   // 0: slopes up to daylight, by the values below. > 0: over this width, beside the road and beyond its ends, the
   // road's surface, going on in its slopes, passes into the terrain by the weight 3 u^2 - 2 u^3. Only in a network of

@@ -6,7 +6,7 @@
 
 namespace rodeira::network {
 
-// How a line is painted of which only the kind is said: one line, or two side by side. A gap of 0 is continuous.
+// The paint of a line of which only the kind is given: one line, or two in parallel. A gap of 0 is continuous.
 struct LineKind {
   std::string_view name;
   int lines = 1;  // 0, 1 or 2

@@ -9,18 +9,18 @@
 
 namespace rodeira::network {
 
-// What stands on the ground by itself, at no road: a world file's own objects. An object's s, t and turn say nothing
-// here.
+// Objects of a world file that stand on the ground, at no road. Station, offset and rotation of their Object are not
+// used.
 struct Props {
   struct Placement {
     std::size_t object = 0;
     Eigen::Vector2d at_W = Eigen::Vector2d::Zero();
     double heading_rad = 0.0;  // of its x axis, from east to north
   };
-  // What goes on in straight pieces from point to point: a wall, a guard rail.
+  // A continuous object in straight pieces from point to point: a wall, a guard rail.
   struct Run {
     std::size_t object = 0;
-    std::vector<Eigen::Vector2d> points_W;  // two or more, none on the one before
+    std::vector<Eigen::Vector2d> points_W;  // at least two, no two consecutive ones equal
   };
   std::vector<Object> objects;
   std::vector<Placement> placements;

@@ -11,10 +11,10 @@
 #include "common/world/opendrive/import.hpp"
 #include "common/world/opendrive/read.hpp"
 
-// What must fit together. Findings go to the two lists of Findings.
+// Consistency checks. Findings go to the two lists of Findings.
 namespace rodeira::opendrive {
 
-// What checks have found, in the order in which they ran.
+// Results of the checks, in the order in which they ran.
 struct Findings {
   std::vector<Finding> errors, warnings;
   Source* source = nullptr;  // the file's
@@ -39,7 +39,7 @@ double LaneGap(const Tolerance& tolerance);
 
 // Elements of one road: stations, gaps and kinks between them, the lengths of cubics, the road's length.
 void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
-// Borders of lanes that lie within the edge of the lane inside of them.
+// Borders of lanes that lie inside of the next inner lane's edge.
 void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
 // Widths and lane offsets that jump within a lane section, under lanes that are driven on.
 void CheckJumps(const RoadReading& road, const Tolerance& tolerance, Findings& findings);

@@ -12,8 +12,8 @@
 
 namespace rodeira::road {
 
-// What a place on an edge says of the land at a point: it lies no farther from a height, either way, than a slope times
-// a distance, and how these change as the point moves.
+// A bound of the land's height at a point by a place on a road's edge: it differs from a height by at most a slope
+// times a distance; with the changes of these as the point moves.
 struct LandBound {
   double z_m = 0.0, distance_m = 0.0;
   Eigen::Vector2d z_slope_W = Eigen::Vector2d::Zero(), distance_slope_W = Eigen::Vector2d::Zero();
@@ -39,21 +39,21 @@ class SteeperBounds {
   double tightest_low_m_, tightest_high_m_, slope_, low_m_, high_m_, farther_m_;
 };
 
-// Of all bounds at a point the tightest lower and the tightest upper one for the slope kBank, in whatever order they
-// are told: of equally tight ones that of the lowest rank, and of one rank the first. Without any there is no bound,
-// either way.
+// The tightest lower and upper bounds at a point for the slope kBank, independent of the order in which bounds are
+// added: of equal ones that of the lowest rank, and within a rank the first. Without bounds the interval is
+// infinite.
 class LandBounds {
  public:
-  // every: keeps all of them, which must be told in the order of their ranks.
+  // every: keeps all bounds, which must be added by ascending rank.
   void Clear(bool every) {
     low_ = high_ = {}, low_m_ = -kInfinity, high_m_ = nearest_m_ = kInfinity, every_ = every, all_.clear();
     steeper_ = nullptr;
   }
   // All are kept of which this does not say that they do not matter; it must outlive the next Meet or Clear.
   void ClearForSteeper(const SteeperBounds& steeper) { Clear(true), steeper_ = &steeper; }
-  void Rank(std::uint32_t rank) { rank_ = rank; }       // of what is told next
-  void Leads() { low_rank_ = high_rank_ = 0; }          // what was told so far counts before all ranks from 1 on
-  void Add(const LandBound& bound, double distance_m);  // how far away its place is
+  void Rank(std::uint32_t rank) { rank_ = rank; }       // of the bounds added next
+  void Leads() { low_rank_ = high_rank_ = 0; }          // bounds added so far precede all ranks from 1 on
+  void Add(const LandBound& bound, double distance_m);  // distance_m: to its place
 
   const LandBound& low() const { return low_; }
   const LandBound& high() const { return high_; }

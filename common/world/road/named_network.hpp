@@ -8,9 +8,9 @@
 
 namespace rodeira::road {
 
-// A world file with an OpenDRIVE file as `network`: that file's roads under the name and with the friction that `said`
-// has. The car starts where the file wishes it, in a pose or on a lane of a road; where it says nothing, where it
-// starts without a world file.
+// Reads a world file that names an OpenDRIVE file as `network`: that file's roads, with the name and the friction of
+// `said`. The car starts as `start` of the world file says, in a pose or on a lane of a road; without it, as if the
+// OpenDRIVE file were opened by itself.
 WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said,
                               const design::StartSpec& start_spec);
 

@@ -32,7 +32,7 @@ struct OpenTunnel {
 };
 std::vector<OpenTunnel> FindOpenTunnels(const network::Network& network, const BareTerrain& terrain);
 
-// A sentence for each of both, for `world check`.
+// A warning for each kind, for `world check`.
 std::vector<OfRoad> DescribePasses(const network::Network& network, const BareTerrain& terrain);
 
 }  // namespace rodeira::road

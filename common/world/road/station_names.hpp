@@ -9,14 +9,14 @@
 
 namespace rodeira::road {
 
-// A sentence about a road, and which.
+// A sentence about a road, and the road's index.
 struct OfRoad {
   std::uint32_t road = 0;
   std::string text;
 };
 
-// How places of a network's roads are called in sentences: parts of a road between junctions by their road, with its
-// stations, where `own` says that the network is a world file's; otherwise by the road's id.
+// Names of places on a network's roads, for messages. In a world file's network (`own`) parts of a road between
+// junctions are named by their road, with its stations; otherwise a road is named by its id.
 class StationNames {
  public:
   // The network outlives it.

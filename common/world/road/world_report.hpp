@@ -10,12 +10,12 @@
 #include "common/core/base/result.hpp"
 #include "common/world/road/world.hpp"
 
-// What stands behind `rodeira world check | info | query | build`: texts for people, ending in a newline.
+// The output of `rodeira world check | info | query | build`: texts ending in a newline.
 namespace rodeira::road {
 
-// Every problem of a world file, in the order of its lines; none where World::Load would succeed.
+// Every problem of a world file, by line; none if World::Load succeeds.
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml);
-// What is not wrong but worth a look: curvature that jumps, gaps that are closed, steep approaches to junctions.
+// Warnings: jumps of curvature, closed gaps, steep approaches to junctions.
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml);
 
 // Name, content hash, extents, start; each road's length, junctions, smallest radius, heights, grades.

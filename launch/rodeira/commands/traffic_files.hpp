@@ -17,7 +17,7 @@ namespace rodeira::cli {
 // What `rodeira traffic run` writes: some of it moment by moment, the rest at the end.
 class TrafficFiles {
  public:
-  // Wrong input where a wish is wrong, failed where a file cannot be begun.
+  // Wrong input where an option is wrong, failed where a file cannot be begun.
   static base::Result<TrafficFiles> Open(const TrafficOptions& options, const network::Network& network);
 
   bool wants_cells() const { return !options_.csv.empty() || !options_.heat.empty(); }

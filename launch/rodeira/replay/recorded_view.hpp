@@ -20,7 +20,7 @@ struct Seen {
 };
 
 // As the recorded launch file's first view; all cars and traffic at 50 Hz where it has none. Wrong input where there is
-// nothing to see, or where a spec of the options is wrong.
+// nothing to see, or where an option is wrong.
 base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options);
 
 // The operator's marks, what failed, and the events of scenarios, those included that people asked for: weather,

@@ -10,8 +10,8 @@
 
 namespace rodeira::nodes {
 
-// Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message
-// may be lost, and a run that stands takes nothing. Used on the thread of the window.
+// Sends requests to the run, and repeats each every kRepeat_s until an event of the run confirms it: a message may be
+// lost, and a paused run takes none. Used on the thread of the window.
 class LiveRequester {
  public:
   static constexpr double kRepeat_s = 0.05;

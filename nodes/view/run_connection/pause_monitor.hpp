@@ -8,8 +8,8 @@
 
 namespace rodeira::nodes {
 
-// Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control
-// socket where that comes to rest.
+// Tells a window of a live run whether simulated time stands still, and why. When the pictures' time no longer
+// advances, it queries the run's control socket.
 class PauseMonitor {
  public:
   static constexpr double kStill_s = 0.5;  // without a new moment: time stands

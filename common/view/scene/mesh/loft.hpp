@@ -10,9 +10,9 @@ namespace rodeira::scene {
 
 using Ring = std::vector<Eigen::Vector3d>;
 
-// A closed skin over rings of equally many points, each ring counter-clockwise seen from behind (from where the rings
-// begin, looking to where they end... the x axis points away from the eye), and flat caps on the first and last. Three
-// vertices a triangle; normals smoothed up to crease_rad. In the body's own frame, origin 0.
+// A closed surface through rings (cross sections) with equal numbers of points, with flat caps on the first and the
+// last. Rings are ordered along x; the points of each are counter-clockwise in a view along +x. Three vertices per
+// triangle; normals are smoothed across edges up to crease_rad. In the body's frame, origin 0, lengths in m.
 Mesh Loft(const std::vector<Ring>& rings, Material material, Colour colour, double crease_rad);
 // A solid wheel, tyre or disc around the y axis from y = -half to +half with bevelled edges.
 Mesh Disc(double radius_m, double half_width_m, double bevel_m, int sides, Material material, Colour colour);

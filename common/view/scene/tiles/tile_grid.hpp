@@ -8,9 +8,9 @@
 
 #include "common/core/tessellation/grid_point.hpp"
 
-// The world in squares, and their places in whole steps. A step is so fine that nothing is seen of it and so coarse
-// that a float holds every place of a tile exactly: two tiles have the very same points on their common edge, anywhere
-// on earth.
+// The world's square tiles, with coordinates in integer steps. A step is below what can be seen, and large enough that
+// a float represents every coordinate within a tile exactly. So two tiles share identical points on their common edge,
+// anywhere on earth.
 namespace rodeira::scene {
 
 inline constexpr double kStep_m = 1.0 / 8192.0;

@@ -6,9 +6,9 @@
 
 namespace rodeira::scene {
 
-// Of what is seen of a network's world, as far as it is cheap to know: the content hash (SUELO, lanes, lines), lane
-// marks, what stands there, models' files included. Ground that was drawn from a world with another digest is not this
-// one's. world.network() must not be null.
+// Digest of a network world's visible content, as far as it is cheap to compute: content hash (SUELO, lanes, lines),
+// lane marks, static objects and the files of their models. A visual database with another digest does not belong to
+// this world. Precondition: world.network() is not null.
 base::Digest SeenDigest(const road::World& world);
 
 }  // namespace rodeira::scene
