@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "common/core/base/files.hpp"
@@ -19,7 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // of a file, and of a text with all that it includes
 constexpr std::size_t kMaxDepth = 16;
 constexpr std::size_t kMaxIncludes = 10'000;
-constexpr int kMaxPacked = 2;  // an archive of gzipped files
+constexpr int kMaxPacked = 2;                               // an archive of gzipped files
+constexpr std::size_t kUnreadBytes = std::size_t{1} << 24;  // what a file of an archive counts that cannot be unpacked
 
 // Where a file and those that it includes come from: a folder, or an archive.
 struct Place {
@@ -39,7 +42,68 @@ bool EndsOn(const std::string& name, std::initializer_list<std::string_view> end
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return lower.ends_with(ending); });
 }
 
-// The one OpenDRIVE file of an archive: by its ending; where none ends so, the one .xml.
+// As it is named, with '/' between folders.
+std::string Named(const std::string& file) {
+  std::string named = file;
+  std::replace(named.begin(), named.end(), '\\', '/');
+  return named;
+}
+
+bool Parse(pugi::xml_document& document, const std::string& text) {
+  const auto parsed =
+      document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment, pugi::encoding_utf8);
+  return static_cast<bool>(parsed);
+}
+
+// All elements <include file="…">, in the order of the text.
+std::vector<pugi::xml_node> IncludesIn(const pugi::xml_document& document) {
+  struct Walker final : pugi::xml_tree_walker {
+    bool for_each(pugi::xml_node& node) override {
+      if (std::string_view(node.name()) == "include" && node.attribute("file")) includes.push_back(node);
+      return true;
+    }
+    std::vector<pugi::xml_node> includes;
+  } walker;
+  const_cast<pugi::xml_document&>(document).traverse(walker);
+  return std::move(walker.includes);
+}
+
+// A file of an archive as text; nothing where it cannot be read.
+std::optional<std::string> TextOf(const Archive& archive, const std::string& name, const fs::path& path) {
+  auto bytes = archive.Read(name);
+  for (int layer = 0; bytes && IsGzip(bytes.value()) && layer < kMaxPacked; ++layer)
+    bytes = Gunzip(bytes.value(), path);
+  if (!bytes) return std::nullopt;
+  auto text = ToUtf8(std::move(bytes).value(), path);
+  return text ? std::optional(std::move(text).value()) : std::nullopt;
+}
+
+// Of several files of an archive those that no other file includes. All of them where what is read of the archive is
+// too long; the first where each is included, so that the reading says by which.
+std::vector<std::string> RootsOf(const Archive& archive, const std::vector<std::string>& files, const fs::path& path) {
+  std::set<std::string> included;
+  std::vector<std::string> open = files;
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::string name = open[i];
+    const std::optional<std::string> text = TextOf(archive, name, path);
+    if ((bytes += text ? text->size() : kUnreadBytes) > kMaxUnpackedBytes) return files;
+    pugi::xml_document document;
+    if (!text || text->find("<include") == std::string::npos || !Parse(document, *text)) continue;
+    for (const pugi::xml_node& include : IncludesIn(document)) {
+      const fs::path file = fs::path(name).parent_path() / Named(include.attribute("file").value());
+      const std::string found = file.lexically_normal().generic_string();
+      if (found == name || !archive.Has(found) || !included.insert(found).second) continue;
+      if (std::find(files.begin(), files.end(), found) == files.end()) open.push_back(found);
+    }
+  }
+  std::vector<std::string> roots = files;
+  std::erase_if(roots, [&](const std::string& name) { return included.contains(name); });
+  return roots.empty() ? std::vector{files.front()} : roots;
+}
+
+// The one OpenDRIVE file of an archive: by its ending; where none ends so, the one .xml. Of several the one that
+// includes the others.
 base::Result<std::string> RoadFileOf(const Archive& archive, const fs::path& path) {
   std::vector<std::string> roads, others;
   for (const std::string& name : archive.names()) {
@@ -47,6 +111,7 @@ base::Result<std::string> RoadFileOf(const Archive& archive, const fs::path& pat
     if (EndsOn(name, {".xml"})) others.push_back(name);
   }
   if (roads.empty()) roads = std::move(others);
+  if (roads.size() > 1) roads = RootsOf(archive, roads, path);
   if (roads.size() == 1) return roads.front();
   if (roads.empty())
     return base::WrongInput("opendrive.wrong_archive",
@@ -55,8 +120,8 @@ base::Result<std::string> RoadFileOf(const Archive& archive, const fs::path& pat
                             path.string());
   return base::WrongInput(
       "opendrive.wrong_archive",
-      fmt::format("the archive holds {} OpenDRIVE files ('{}', '{}'{}); one was expected: unpack it "
-                  "and name one",
+      fmt::format("the archive holds {} OpenDRIVE files ('{}', '{}'{}), of which none includes another; one was "
+                  "expected: unpack it and name one",
                   roads.size(), roads[0], roads[1], roads.size() > 2 ? ", …" : ""),
       path.string());
 }
@@ -85,13 +150,6 @@ base::Result<Found> Unpack(std::string bytes, Place place, const fs::path& path)
   if (!text) return text.error();
   if (const auto status = LooksLikeXml(text.value(), path); !status) return status.error();
   return Found{std::move(text).value(), std::move(place)};
-}
-
-// As it is named, with '/' between folders.
-std::string Named(const std::string& file) {
-  std::string named = file;
-  std::replace(named.begin(), named.end(), '\\', '/');
-  return named;
 }
 
 bool LeavesArchive(const std::string& file, const Place& by) {
@@ -153,10 +211,8 @@ class Includes {
     if (in.text.find("<include") == std::string::npos) return edits;
     pugi::xml_document document;
     if (!Parse(document, in.text)) return edits;  // what is wrong is told by the reading
-    std::vector<pugi::xml_node> includes;
-    Find(document, includes);
     open_.push_back(in.place);
-    for (const pugi::xml_node& include : includes) {
+    for (const pugi::xml_node& include : IncludesIn(document)) {
       const std::string file = include.attribute("file").value();
       auto content = ContentOf(file, in.place, include.parent().name());
       if (!content) return content.error();
@@ -171,24 +227,6 @@ class Includes {
   const std::map<std::string, std::string>& unread() const { return unread_; }
 
  private:
-  static bool Parse(pugi::xml_document& document, const std::string& text) {
-    const auto parsed =
-        document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment, pugi::encoding_utf8);
-    return static_cast<bool>(parsed);
-  }
-
-  static void Find(const pugi::xml_document& document, std::vector<pugi::xml_node>& includes) {
-    struct Walker final : pugi::xml_tree_walker {
-      explicit Walker(std::vector<pugi::xml_node>& found) : includes(found) {}
-      bool for_each(pugi::xml_node& node) override {
-        if (std::string_view(node.name()) == "include" && node.attribute("file")) includes.push_back(node);
-        return true;
-      }
-      std::vector<pugi::xml_node>& includes;
-    } walker(includes);
-    const_cast<pugi::xml_document&>(document).traverse(walker);
-  }
-
   // Nothing where the file cannot be read, which is kept in unread_; wrong input where it would come to no end.
   base::Result<std::optional<std::string>> ContentOf(const std::string& file, const Place& by,
                                                      const std::string& parent) {

@@ -15,7 +15,8 @@ struct FileText {
   Edited edited;  // lines are those of the unpacked file; what was included counts as the line of its <include>
 };
 
-// A file is unpacked by its first bytes, whatever its name: gzip, or a ZIP archive that holds one OpenDRIVE file.
+// A file is unpacked by its first bytes, whatever its name: gzip, or a ZIP archive that holds one OpenDRIVE file, or
+// one that includes all others.
 // Includes are relative to the file that names them, in an archive those of the archive. One that cannot be read stays
 // in the text, and Edited::unread says why. Wrong input where the file cannot be read, is no XML, or includes itself.
 base::Result<FileText> ReadFileText(const std::filesystem::path& path);

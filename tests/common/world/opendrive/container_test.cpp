@@ -261,6 +261,27 @@ TEST_F(Container, WhatIsNoRoadFileIsSaidInOneSentence) {
   EXPECT_THAT(Refusal(Put("deep.xodrz", Gzipped(Gzipped(Gzipped(text))))), HasSubstr("packed more than 2 times"));
 }
 
+// Of several the one counts that includes the others, itself or by way of a third, in any order and folder.
+TEST_F(Container, AnArchivesRootIsTheFileThatNoOtherIncludes) {
+  const std::string whole = Describe(MustImport(Document(RoadText().Text())));
+  const std::string tile = Document(RoadText().Text()), part = "<include file=\"tile.xodr\"/>";
+  const auto root = [](const std::string& file) { return Document("<include file=\"" + file + "\"/>"); };
+  const auto loaded = [&](const fs::path& path) {
+    const auto import = Load(path);
+    EXPECT_TRUE(import.ok()) << import.error().Text();
+    return import ? Describe(import.value()) : "";
+  };
+  EXPECT_EQ(loaded(Zip("a.zip", {{"a/tile.xodr", tile}, {"map.xodr", root("a/tile.xodr")}})), whole);
+  EXPECT_EQ(loaded(Zip("b.zip", {{"a/map.xodr", root("..\\tile.xodr")}, {"tile.xodr", tile}})), whole);
+  EXPECT_EQ(loaded(Zip("c.zip", {{"map.xodr", root("p.xml")}, {"p.xml", part}, {"tile.xodr", tile}})), whole);
+  EXPECT_EQ(loaded(Zip("d.zip", {{"map.xodr.gz", Gzipped(root("tile.xodr"))}, {"tile.xodr", tile}})), whole);
+  EXPECT_EQ(loaded(Zip("e.zip", {{"map.xml", root("tile.xml")}, {"tile.xml", tile}})), whole);
+  EXPECT_THAT(Refusal(Zip("ring.zip", {{"a.xodr", root("b.xodr")}, {"b.xodr", root("a.xodr")}})),
+              HasSubstr("includes itself"));
+  EXPECT_THAT(Refusal(Zip("two.zip", {{"a.xodr", root("b.xodr")}, {"b.xodr", tile}, {"c.xodr", tile}})),
+              HasSubstr("('a.xodr', 'c.xodr')"));
+}
+
 // OpenDRIVE 1.9: the lanes of a site of works stand beside the permanent ones.
 TEST_F(Container, OfTwoLayersOfLanesThePermanentOneCounts) {
   const std::string one = RoadText().Text();
