@@ -77,10 +77,24 @@ void TellNoElements(const Node& road) {
       {RepairKind::kReadAsLine, "it is read as a line of the road's length", std::move(edits)});
 }
 
+// An element without length, where it stands.
+struct Standing {
+  std::size_t line;
+  double s_m;
+};
+
+void TellWithoutLength(Source& source, const std::vector<Standing>& elements) {
+  for (const Standing& each : elements) {
+    source.warnings.push_back({"road.geometry.length", "an element has no length: it is passed over", each.line,
+                               source.where.road, std::nullopt, each.s_m});
+  }
+}
+
 }  // namespace
 
 std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
   std::vector<PlanElement> elements;
+  std::vector<Standing> without_length;
   const std::size_t before = road.source().errors.size();
   for (const Node& geometry : road.Child("planView").Children("geometry")) {
     Within within(geometry.source());
@@ -100,7 +114,10 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     if (element.length_m < 0.0)
       geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m),
                      {RepairKind::kElementDropped, "it is passed over", {geometry.Remove()}, "geometry"});
-    if (!(element.length_m > 1e-9)) continue;  // nothing of it can be driven on
+    if (!(element.length_m > 1e-9)) {  // nothing of it can be driven on
+      if (element.length_m >= 0.0) without_length.push_back({geometry.line(), element.s_m});
+      continue;
+    }
     ReadKind(geometry, element);
     if (!elements.empty() && element.s_m < elements.back().s_m) {
       geometry.Wrong("road.geometry.elem_asc_order",
@@ -127,6 +144,7 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     lines.element_nodes.push_back(geometry.xml());
   }
   if (elements.empty() && road.source().errors.size() == before) TellNoElements(road);
+  if (!elements.empty()) TellWithoutLength(road.source(), without_length);
   return elements;
 }
 

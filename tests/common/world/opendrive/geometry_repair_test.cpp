@@ -184,6 +184,15 @@ TEST(LengthsOfElements, OfNothingArePassedOver) {
     EXPECT_NEAR(AxisOf(import).Evaluate(70.0).p_W.x(), 70.0, 1e-12);
     EXPECT_THAT(NamesOf(import), IsEmpty());
   }
+  // Each is told, once a kind; strictly too.
+  RoadText road;
+  road.geometry = a + middle + middle + b, road.length = 90.0;
+  for (const Tolerance& tolerance : {Tolerance::Usual(), Tolerance::Strict()}) {
+    const Import import = MustImport(Document(road.Text()), tolerance);
+    ASSERT_EQ(OneEachKind(import.warnings).size(), 1u);
+    EXPECT_EQ(OneEachKind(import.warnings).front().Text(),
+              "road.geometry.length: road 1, s 40: an element has no length: it is passed over (2 of this kind)");
+  }
   const Import all = MadeOf(none + none, 0.15);
   EXPECT_THAT(NamesOf(all), ElementsAre("geometry.read_as_line"));
   EXPECT_NEAR(AxisOf(all).Evaluate(0.15).p_W.x(), 0.15, 1e-12);
