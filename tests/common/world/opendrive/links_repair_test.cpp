@@ -382,5 +382,21 @@ TEST(LanesThatEnd, AreToldInARoadsMiddle) {
   EXPECT_TRUE(import.network->AtEnd({0, 1, -2}).empty());
 }
 
+// Up to a metre of nothing between linked roads is driven, and no more.
+TEST(LinkedRoads, AreDrivenAcrossAMetreOfNothing) {
+  const Drawn drawn{false, false, false, false};
+  for (const double gap_m : {0.31, 0.95, -0.95, 1.05, -1.05}) {
+    const Piece a{"A", 0.0, 80.0, false}, b{"B", 80.0 + gap_m, 40.0, false};
+    const Import import =
+        MustImport(Document(TextOf(a, drawn, RoadLink(End::kEnd, "B", "start"), {"", LaneLink(End::kEnd, "-1")}) +
+                            TextOf(b, drawn, RoadLink(End::kStart, "A", "end"), {LaneLink(End::kStart, "-1"), ""})));
+    std::vector<std::string> kinds;
+    for (const Finding& finding : OneEachKind(import.warnings)) kinds.push_back(finding.repair.Name());
+    const bool is_driven = std::fabs(gap_m) < 1.0;
+    EXPECT_THAT(kinds, Contains(is_driven ? "lane.gap_driven" : "lane.ended")) << gap_m;
+    EXPECT_EQ(import.network->AtEnd({0, 0, -1}).size(), is_driven ? 1u : 0u) << gap_m;
+  }
+}
+
 }  // namespace
 }  // namespace rodeira::opendrive
