@@ -25,7 +25,7 @@ std::vector<Key> FirstKeys(std::vector<std::string> models) {
                           {config::TextKey("name", "", "Name, for the reader."),
                            Required(config::WordKey("model", std::move(models), first, "Model of the car.")),
                            config::NamedValueKey("models", config::TextItem("ode.yaml"),
-                                                 "Files of this car in other models, for --set vehicle.model=NAME.")});
+                                                 "Files for other models, for --set vehicle.model=NAME.")});
 }
 
 config::Schema MakeVehicleSchema() {
