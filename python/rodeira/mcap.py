@@ -17,7 +17,7 @@ import numpy as np
 
 from .checksum import crc32
 from .compression import decompress
-from .errors import Error
+from .errors import Error, nearest_file
 from .mcap_records import (ATTACHMENT, CHANNEL, CHUNK, CHUNK_INDEX, DATA_END, FOOTER, FOOTER_BYTES, HEAD_BYTES, HEADER,
                            MAGIC, MESSAGE, MESSAGE_HEAD_BYTES, MESSAGE_INDEX, METADATA, SCHEMA, STATISTICS, Channel,
                            ChunkHead, Fields, Schema, Short, read_channel, read_chunk, read_schema, read_statistics,
@@ -65,11 +65,14 @@ class McapFile:
                 self.data = memoryview(b"")
                 if size:
                     self.data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+        except (FileNotFoundError, NotADirectoryError):
+            raise Error(f"{self.path}: there is no such file{nearest_file(self.path)}") from None
+        except IsADirectoryError:
+            raise Error(f"{self.path}: this is not a file, a recording was expected") from None
         except OSError as problem:
-            raise Error(f"{self.path}: cannot open: {(problem.strerror or str(problem)).lower()}") from None
+            raise Error(f"{self.path}: the recording cannot be opened: {problem.strerror or problem}") from None
         if bytes(self.data[:len(MAGIC)]) != MAGIC:
-            raise Error(f"{self.path}: not an MCAP file: {bytes(self.data[:len(MAGIC)])!r} was found at its start; "
-                        f"{MAGIC!r} was expected")
+            raise Error(f"{self.path}: this is no MCAP recording: it does not begin with MCAP's mark")
         self.library = ""
         self.damage: list[str] = []
         self.schemas: dict[int, Schema] = {}

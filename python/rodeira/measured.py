@@ -113,13 +113,17 @@ def _rows(found: list[dict[str, Any]]) -> Measures:
     return Measures(rows)
 
 
-def measures(source: Any, measures: Iterable[str] = (), *, intervals: Iterable[str] = (), baseline: str = "",
-             subject: str = "", options: Mapping[str, Mapping[str, float]] | None = None,
+def _texts(given: str | Iterable[str]) -> list[str]:
+    return [given] if isinstance(given, str) else list(given)
+
+
+def measures(source: Any, measures: str | Iterable[str] = (), *, intervals: str | Iterable[str] = (),
+             baseline: str = "", subject: str = "", options: Mapping[str, Mapping[str, float]] | None = None,
              spec: str | os.PathLike[str] = "", columns: Columns | None = None, rate_hz: float | None = None,
              time: str = "time_s", events: Iterable[tuple[float, str]] = (), marks: Iterable[tuple[float, str]] = (),
              length_m: float = float("nan"), front_m: float = float("nan"),
              width_m: float = float("nan")) -> Measures:
-    """Computes measures; without names all of them (`rodeira.measure_names()`).
+    """Computes measures; without names all of them (`rodeira.measure_names()`). One name or interval may be a text.
 
     source: a recording, its path or several of either; or a table of another program: a pandas frame, or a mapping from
     names of columns to arrays.
@@ -132,8 +136,8 @@ def measures(source: Any, measures: Iterable[str] = (), *, intervals: Iterable[s
     vehicle. Missing values are nan. Raises Error.
     """
     native = extension("rodeira.measures")
-    question = {"spec": os.fspath(spec), "intervals": list(intervals), "baseline": baseline, "subject": subject,
-                "measures": list(measures), "options": {k: dict(v) for k, v in (options or {}).items()}}
+    question = {"spec": os.fspath(spec), "intervals": _texts(intervals), "baseline": baseline, "subject": subject,
+                "measures": _texts(measures), "options": {k: dict(v) for k, v in (options or {}).items()}}
     files = _files(source)
     if files is not None:
         if columns is not None or rate_hz is not None:

@@ -185,12 +185,15 @@ class Files(unittest.TestCase):
             drive["lab/gaze"]["x_m"]
 
     def test_not_a_recording(self):
-        with self.assertRaisesRegex(rodeira.Error, "cannot open: no such file or directory"):
-            rodeira.open(os.path.join(self.folder.name, "none.mcap"))
-        with self.assertRaisesRegex(rodeira.Error, "cannot open: is a directory"):
+        with self.assertRaisesRegex(rodeira.Error, "nothing_like_it.mcap: there is no such file$"):
+            rodeira.open(os.path.join(self.folder.name, "nothing_like_it.mcap"))
+        pathlib.Path(self.folder.name, "lap_one.mcap").touch()
+        with self.assertRaisesRegex(rodeira.Error, "no such file.*'lap_one.mcap'"):
+            rodeira.open(os.path.join(self.folder.name, "lap_on.mcap"))
+        with self.assertRaisesRegex(rodeira.Error, "a recording was expected"):
             rodeira.open(self.folder.name)
         for data in (b"", b"time_s,step\n1,2\n", handmade.MAGIC[:5]):
-            with self.assertRaisesRegex(rodeira.Error, "not an MCAP file"):
+            with self.assertRaisesRegex(rodeira.Error, "no MCAP recording"):
                 rodeira.open(self.path(data))
 
     def test_names_that_do_not_exist(self):
@@ -202,6 +205,8 @@ class Files(unittest.TestCase):
                 drive["lab/gaze"][name]
             with self.assertRaisesRegex(rodeira.Error, f"did you mean '{nearest}'"):
                 drive["lab/gaze"].read(["word", name])
+        with self.assertRaisesRegex(rodeira.Error, r"unknown column 'speed'; known are number, x_m, word"):
+            drive["lab/gaze"]["speed"]
         for name in ("", ".", "a..b", "[0]", "number.", " number"):
             with self.assertRaises(rodeira.Error):
                 drive["lab/gaze"][name]
