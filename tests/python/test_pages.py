@@ -42,13 +42,13 @@ class Pages(unittest.TestCase):
         cls.kept = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.kept.name)
         for words in (["run", ROOT / "launch/car_ahead.yaml", "--for", "2", "--in-process", "--quiet", "--record",
-                       cls.folder / "drive.mcap", "--set", "nodes.traffic.config.vehicles=8", "--seed", "6"],
-                      ["export", "--csv", cls.folder / "tables", cls.folder / "drive.mcap"],
-                      ["export", "--mat", cls.folder / "drive.mat", cls.folder / "drive.mcap"]):
+                       cls.folder / "demo.mcap", "--set", "nodes.traffic.config.vehicles=8", "--seed", "6"],
+                      ["export", "--csv", cls.folder / "demo_tables", cls.folder / "demo.mcap"],
+                      ["export", "--mat", cls.folder / "demo.mat", cls.folder / "demo.mcap"]):
             done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=300)
             if done.returncode != 0:
                 raise AssertionError(done.stdout + done.stderr)
-        with open(cls.folder / "tables/vehicle_state.csv", newline="") as table:
+        with open(cls.folder / "demo_tables/vehicle_state.csv", newline="") as table:
             speeds = [3.6 * math.hypot(float(row["velocity_w_mps.x"]), float(row["velocity_w_mps.y"]))
                       for row in csv.DictReader(table)]
         cls.sentence = f"{len(speeds)} samples, {math.fsum(speeds) / len(speeds):.3f} km/h on average"
@@ -74,7 +74,7 @@ class Pages(unittest.TestCase):
     def test_pandas(self):
         said = self.run_file(blocks("python")[1], "frame.py", [sys.executable])
         self.assertEqual(said.splitlines()[-1], "m/s")
-        with open(self.folder / "tables/traffic_state.csv", newline="") as table:
+        with open(self.folder / "demo_tables/traffic_state.csv", newline="") as table:
             fastest = {}
             for row in csv.DictReader(table):
                 speed = float(row["agents.speed_mps"])
@@ -99,6 +99,7 @@ class Pages(unittest.TestCase):
 
     @needs_module("matplotlib")
     def test_notebooks(self):
+        (self.folder / "drive.mcap").hardlink_to(self.folder / "demo.mcap")
         found = sorted(NOTEBOOKS.glob("*.ipynb"))
         self.assertTrue(found)
         for path in found:
