@@ -116,6 +116,9 @@ base::Status Surface::MakeWindow(int width_px, int height_px, const std::string&
   if (!made)
     return base::WrongInput("view.no_opengl", std::string("no OpenGL context can be made (") + SDL_GetError() +
                                                   "); the package libgl1-mesa-dri was expected");
+  // A first operation, for a driver that would wait for ever in it: RenderThread::Open has a limit for this function.
+  glClear(GL_COLOR_BUFFER_BIT);
+  glFinish();
   if (kind_ == SurfaceKind::kWindow) holds_ = SDL_GL_SetSwapInterval(1) == 0;
   if (!holds_) SDL_ClearError();
   renderer_ = RendererName();
