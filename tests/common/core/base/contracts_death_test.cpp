@@ -17,10 +17,13 @@ TEST(ContractsDeathTest, AnAssertionNamesConditionAndPlace) {
 
 TEST(ContractsDeathTest, AResultHasAValueOrAnError) {
   const Result<int> good = 7, bad = Failed("file.cannot_open", "closed");
+  Result<int> bad_variable = bad;
   EXPECT_EQ(good.value(), 7);
   EXPECT_EQ(bad.error().id.text(), "file.cannot_open");
-  EXPECT_DEATH((void)good.error(), "ok\\(\\)");
-  EXPECT_DEATH((void)bad.value(), "ok\\(\\)");
+  EXPECT_DEATH((void)good.error(), "failed: !ok\\(\\)");
+  EXPECT_DEATH((void)bad.value(), "failed: ok\\(\\)");
+  EXPECT_DEATH((void)bad_variable.value(), "failed: ok\\(\\)");
+  EXPECT_DEATH((void)Result<int>(bad).value(), "failed: ok\\(\\)");
   EXPECT_DEATH((void)Status().error(), "has_value");
 }
 

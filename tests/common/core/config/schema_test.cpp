@@ -132,12 +132,12 @@ TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
   const auto file = File::Parse("{rodeira: garage/1, height_m: 2}", "garage.yaml");
   ASSERT_TRUE(file.ok());
   const DeclaredMap root(file.value().root(), Garage().keys);
-  EXPECT_DEATH((void)root.Number("width_m"), "found != nullptr");
+  EXPECT_DEATH((void)root.Number("width_m"), "found != nullptr && found->type == type");
   EXPECT_DEATH((void)root.Text("height_m"), "found->type == type");
   EXPECT_DEATH((void)root.MapWith("width_m"), "FindKey");
   EXPECT_DEATH((void)root.Items("height_m"), "found->type == type");
-  EXPECT_DEATH((void)root.OfKind("roller"), "found != nullptr");
-  EXPECT_DEATH((void)root.NamedNumbers("doors"), "kNumber");
+  EXPECT_DEATH((void)root.OfKind("roller"), "found != nullptr && found->type == type");
+  EXPECT_DEATH((void)root.NamedNumbers("doors"), "declared.of.front\\(\\).type == ValueType::kNumber");
 }
 
 TEST(Schema, MarkdownHasARowAKey) {

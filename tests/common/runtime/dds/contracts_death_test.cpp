@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "common/runtime/dds/local_exchange.hpp"
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_ground.hpp"
@@ -67,6 +68,20 @@ void PublishTopicOf(lockstep::NodeIndex node) {
 TEST(ContractsDeathTest, ANodePublishesItsOwnSamples) {
   PublishTopicOf(0);
   EXPECT_DEATH(PublishTopicOf(1), "output != outputs_\\.end\\(\\)");
+}
+
+TEST(ContractsDeathTest, ANodeOfThisProcessJoins) {
+  const auto roster = lockstep::Roster::Create(1'000'000, 20,
+                                               {{"one", "t", lockstep::Role::kStepped, 2, 0, 0, {"a"}, {}},
+                                                {"two", "t", lockstep::Role::kStepped, 2, 0, 0, {"b"}, {}}});
+  ASSERT_TRUE(roster.ok()) << roster.error().Text();
+  SilentParticipant participant;
+  lockstep::Mailbox mailbox(roster.value(), 0);
+  const auto bus = NodeBus::Open(participant, roster.value(), mailbox, {});
+  ASSERT_TRUE(bus.ok()) << bus.error().Text();
+  LocalExchange exchange(roster.value(), {0});
+  exchange.Join(0, *bus.value());
+  EXPECT_DEATH(exchange.Join(1, *bus.value()), "Has\\(node\\)");
 }
 
 }  // namespace

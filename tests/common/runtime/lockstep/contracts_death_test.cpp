@@ -2,6 +2,7 @@
 // Promises of callers of the lockstep: payloads of an outbox, sizes of samples, nodes of a roster, the order of calls.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -9,7 +10,10 @@
 #include "common/runtime/lockstep/in_process.hpp"
 #include "common/runtime/lockstep/inbox.hpp"
 #include "common/runtime/lockstep/kept_samples.hpp"
+#include "common/runtime/lockstep/mailbox.hpp"
 #include "common/runtime/lockstep/outbox.hpp"
+#include "common/runtime/lockstep/planned_losses.hpp"
+#include "common/runtime/lockstep/runner.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
 #include "common/runtime/lockstep/stepped_run.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
@@ -35,11 +39,12 @@ Sample SampleOf(SourceIndex source) {
 TEST(ContractsDeathTest, AnOutboxGetsOnePayloadForEachTopicOfItsNode) {
   const Roster roster = TwoNodes();
   Outbox outbox(roster, 0);
-  EXPECT_DEATH(outbox.Put("a", base::Bytes(SampleHeader::kEncapsulation + SampleHeader::kSize - 1)), "HasHeader");
+  EXPECT_DEATH(outbox.Put("a", base::Bytes(SampleHeader::kEncapsulation + SampleHeader::kSize - 1)),
+               "SampleHeader::HasHeader");
   EXPECT_DEATH(outbox.Put("c", law::Payload(1)), "a topic that the roster does not know");
   outbox.Put("a", law::Payload(1));
-  EXPECT_DEATH(outbox.Put("a", law::Payload(1)), "empty\\(\\)");
-  EXPECT_DEATH((void)outbox.Take(2, 0, 0), "empty\\(\\)") << "topic b has no payload";
+  EXPECT_DEATH(outbox.Put("a", law::Payload(1)), "failed: payloads_\\[i\\].empty\\(\\)");
+  EXPECT_DEATH((void)outbox.Take(2, 0, 0), "failed: !payloads_\\[i\\].empty\\(\\)") << "topic b has no payload";
   outbox.Put("b", law::Payload(2));
   EXPECT_EQ(outbox.Take(2, 0, 0).size(), 2U);
 }
@@ -48,8 +53,8 @@ TEST(ContractsDeathTest, APayloadHoldsAHeader) {
   base::Bytes bytes(SampleHeader::kEncapsulation + SampleHeader::kSize);
   EXPECT_EQ(SampleHeader::Read(bytes).step, 0);
   bytes.pop_back();
-  EXPECT_DEATH((void)SampleHeader::Read(bytes), "HasHeader");
-  EXPECT_DEATH(SampleHeader().Write(bytes), "HasHeader");
+  EXPECT_DEATH((void)SampleHeader::Read(bytes), "failed: HasHeader");
+  EXPECT_DEATH(SampleHeader().Write(bytes), "failed: HasHeader");
 }
 
 TEST(ContractsDeathTest, TheLatestOfAPortIsOfOneSource) {
@@ -74,9 +79,10 @@ TEST(ContractsDeathTest, ARunHasOneNodeForEachOfTheRoster) {
   auto made = law::MakeNodes(roster);
   auto nodes = made.nodes;
   nodes.pop_back();
-  EXPECT_DEATH((void)RunThreaded(roster, nodes, {}), "nodes.size\\(\\)");
-  EXPECT_DEATH((void)RunShuffled(roster, nodes, {}, 1), "nodes.size\\(\\)");
-  EXPECT_DEATH((void)SteppedRun(roster, nodes, {}), "nodes.size\\(\\)");
+  EXPECT_DEATH((void)RunThreaded(roster, nodes, {}), "in_process.cpp.*nodes.size\\(\\)");
+  EXPECT_DEATH((void)RunShuffled(roster, nodes, {}, 1), "shuffled.cpp.*nodes.size\\(\\)");
+  EXPECT_DEATH((void)RunWithLosses(roster, nodes, {}, 1, {}), "shuffled.cpp.*nodes.size\\(\\)");
+  EXPECT_DEATH((void)SteppedRun(roster, nodes, {}), "stepped_run.cpp.*failed: nodes.size\\(\\)");
   SteppedRun::Settings settings;
   settings.resume.resize(1);
   EXPECT_DEATH((void)SteppedRun(roster, made.nodes, settings), "resume.size\\(\\)");
@@ -92,8 +98,47 @@ TEST(ContractsDeathTest, ASteppedRunGoesForwardsUntilItsEnd) {
   EXPECT_DEATH((void)run.Beginning(), "limit_ < 0");
   EXPECT_DEATH((void)run.RunThrough(5), "step >= limit_");
   ASSERT_TRUE(run.Finish().ok());
-  EXPECT_DEATH((void)run.RunThrough(8), "ended_");
-  EXPECT_DEATH((void)run.Finish(), "ended_");
+  EXPECT_DEATH((void)run.RunThrough(8), "step >= limit_ && !ended_");
+  EXPECT_DEATH((void)run.Finish(), "failed: !ended_");
+}
+
+class NoBus final : public Bus {
+ public:
+  base::Status Publish(const Sample&) override { return {}; }
+  void Ask(const Gap&) override {}
+  void Tell(const Report&) override {}
+};
+
+TEST(ContractsDeathTest, ANodeIsNotAdvancedAfterItsEnd) {
+  const Roster roster = TwoNodes();
+  law::Rememberer node(roster, 0);
+  NoBus bus;
+  Mailbox mailbox(roster, 0);
+  Grant abort;
+  abort.abort = true;
+  mailbox.DeliverGrant(abort);
+  Runner runner(roster, 0, node, bus, mailbox, {});
+  ASSERT_EQ(runner.Run(), Runner::Outcome::kAborted);
+  EXPECT_DEATH((void)runner.Advance(std::chrono::milliseconds(0)), "a node is advanced after its end");
+}
+
+TEST(ContractsDeathTest, OnlyASinkBeginsWithoutASnapshot) {
+  const Roster roster = TwoNodes();
+  law::Rememberer node(roster, 0);
+  NoBus bus;
+  Mailbox mailbox(roster, 0);
+  Runner::Settings settings;
+  settings.sink_from = 2;
+  Runner runner(roster, 0, node, bus, mailbox, settings);
+  EXPECT_DEATH((void)runner.Run(), "spec_.is_sink\\(\\)");
+}
+
+TEST(ContractsDeathTest, AnInboxIsOpenedWhenItsSamplesAreThere) {
+  const Roster roster = TwoNodes();
+  Mailbox mailbox(roster, 1);
+  EXPECT_DEATH((void)mailbox.Open(2), "sample != nullptr");
+  ASSERT_TRUE(mailbox.Deliver(SampleOf(0)).ok());
+  EXPECT_EQ(mailbox.Open(2).ports().size(), 1U);
 }
 
 }  // namespace
