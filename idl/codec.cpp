@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/recycled_bytes.hpp"
 
 namespace rodeira::idl::detail {
 
@@ -15,7 +16,8 @@ using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
 base::Bytes EncodeWith(std::size_t size, const void* message, void (*serialise)(const void*, Cdr&)) {
-  base::Bytes bytes(size + 8, std::byte{0});
+  base::Bytes bytes = base::TakeBytes(size + 8);
+  bytes.assign(size + 8, std::byte{0});
   FastBuffer buffer(reinterpret_cast<char*>(bytes.data()), bytes.size());
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
   cdr.serialize_encapsulation();

@@ -127,14 +127,24 @@ void Clock::ForgetReport(NodeIndex node) {
 std::vector<std::string> Clock::Missing(Phase phase) const {
   std::vector<std::string> names;
   for (NodeIndex n = 0; n < reports_.size(); ++n) {
-    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed)
-      names.push_back(roster_.node(n).name);
+    if (IsMissing(n, phase)) names.push_back(roster_.node(n).name);
   }
   return names;
 }
 
-bool Clock::all_ready() const { return Missing(Phase::kReady).empty(); }
-bool Clock::all_finished() const { return Missing(Phase::kFinished).empty(); }
+bool Clock::IsMissing(NodeIndex n, Phase phase) const {
+  return !heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed;
+}
+
+bool Clock::HaveAll(Phase phase) const {
+  for (NodeIndex n = 0; n < reports_.size(); ++n) {
+    if (IsMissing(n, phase)) return false;
+  }
+  return true;
+}
+
+bool Clock::all_ready() const { return HaveAll(Phase::kReady); }
+bool Clock::all_finished() const { return HaveAll(Phase::kFinished); }
 
 bool Clock::all_sources_finished() const {
   for (NodeIndex n = 0; n < reports_.size(); ++n) {

@@ -76,6 +76,8 @@ class Clock {
   void ForgetReport(NodeIndex node);
   void LearnGranted(const Report& report);
   bool HeardAll() const;
+  bool IsMissing(NodeIndex node, Phase phase) const;  // it has not come so far, or has failed
+  bool HaveAll(Phase phase) const;
   void SetRecovery();
 
   const Roster& roster_;

@@ -42,6 +42,8 @@ class Inbox {
   const std::vector<PortSamples>& ports() const { return ports_; }
 
  private:
+  friend class Mailbox;  // fills one inbox again and again
+
   std::vector<PortSamples> ports_;
 };
 

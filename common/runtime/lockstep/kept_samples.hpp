@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "common/runtime/lockstep/mailbox.hpp"
 #include "common/runtime/lockstep/report.hpp"
+#include "common/runtime/lockstep/ring.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/sample.hpp"
 
@@ -34,7 +34,7 @@ class KeptSamples {
  private:
   const Roster& roster_;
   std::vector<SourceIndex> outputs_;
-  std::vector<std::deque<Sample>> samples_;  // of each output, by step
+  std::vector<Ring<Sample>> samples_;  // of each output, by step
 };
 
 }  // namespace rodeira::lockstep

@@ -22,6 +22,11 @@ Mailbox::Mailbox(const Roster& roster, NodeIndex node) : roster_(roster), spec_(
       tracks_.push_back({source, roster.source(source).period, port.kind == PortKind::kEvent, 0, {}});
     }
   }
+  for (const Port& port : spec_.inputs) {
+    auto& tracks = tracks_of_ports_.emplace_back();
+    for (const SourceIndex source : port.sources)
+      tracks.push_back(static_cast<std::size_t>(TrackOf(source) - tracks_.data()));
+  }
 }
 
 Mailbox::Track* Mailbox::TrackOf(SourceIndex source) {
@@ -205,6 +210,21 @@ Grant Mailbox::grant() const {
   }
   return grant;
 }
+bool Mailbox::is_aborted() const {
+  const std::lock_guard lock(mutex_);
+  return grant_.abort || early_end_;
+}
+Step Mailbox::last_step() const {
+  const std::lock_guard lock(mutex_);
+  return grant_.final ? grant_.through : kNever;
+}
+std::optional<Gap> Mailbox::FirstMissing(Step step) const {
+  const std::lock_guard lock(mutex_);
+  for (const Track& track : tracks_) {
+    if (const auto from = GapFor(track, step)) return Gap{track.source, *from};
+  }
+  return std::nullopt;
+}
 std::vector<Gap> Mailbox::MissingInputs(Step step) const {
   const std::lock_guard lock(mutex_);
   std::vector<Gap> gaps;
@@ -231,29 +251,30 @@ std::vector<Gap> Mailbox::MissingEvents(Step last) const {
   return gaps;
 }
 
-Inbox Mailbox::Open(Step step) {
+// Samples by step, and those of one step in the order of the port's sources.
+void Mailbox::Open(Step step, Inbox& inbox) const {
   const std::lock_guard lock(mutex_);
-  std::vector<Inbox::PortSamples> ports;
-  for (const Port& port : spec_.inputs) {
-    Inbox::PortSamples out{port.topic, {}};
-    for (const SourceIndex source : port.sources) {
-      const Track& track = *TrackOf(source);
-      const Step newest = FloorTo(step, track.period);
-      const Step from =
-          port.kind == PortKind::kEvent ? CeilTo(std::max<Step>(step - spec_.period + 1, 0), track.period) : newest;
-      for (Step s = from; s <= newest; s += track.period) {
-        const Sample* sample = track.Find(s);
-        RODEIRA_ASSERT(sample != nullptr);
-        out.samples.push_back(*sample);
+  inbox.ports_.resize(spec_.inputs.size());
+  for (std::size_t p = 0; p < spec_.inputs.size(); ++p) {
+    const Port& port = spec_.inputs[p];
+    Inbox::PortSamples& out = inbox.ports_[p];
+    out.topic = port.topic;
+    out.samples.clear();
+    const auto add = [&](const Track& track, Step valid) {
+      const Sample* sample = track.Find(valid);
+      RODEIRA_ASSERT(sample != nullptr);
+      out.samples.push_back(*sample);
+    };
+    if (port.kind != PortKind::kEvent) {
+      for (const std::size_t t : tracks_of_ports_[p]) add(tracks_[t], FloorTo(step, tracks_[t].period));
+      continue;
+    }
+    for (Step valid = std::max<Step>(step - spec_.period + 1, 0); valid <= step; ++valid) {
+      for (const std::size_t t : tracks_of_ports_[p]) {
+        if (valid % tracks_[t].period == 0) add(tracks_[t], valid);
       }
     }
-    if (port.kind == PortKind::kEvent) {
-      std::stable_sort(out.samples.begin(), out.samples.end(),
-                       [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
-    }
-    ports.push_back(std::move(out));
   }
-  return Inbox(std::move(ports));
 }
 
 Inbox Mailbox::OpenEvents(Step after, Step through) {

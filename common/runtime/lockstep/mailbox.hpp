@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include "common/runtime/lockstep/inbox.hpp"
 #include "common/runtime/lockstep/life.hpp"
 #include "common/runtime/lockstep/report.hpp"
+#include "common/runtime/lockstep/ring.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/sample.hpp"
 
@@ -61,15 +61,21 @@ class Mailbox {
   // Whether the newest grant reaches the step.
   bool IsGranted(Step step) const;
   Grant grant() const;
+  // Of grant(), without a copy: whether the run is aborted, and the run's last step where it is known, else kNever.
+  bool is_aborted() const;
+  Step last_step() const;
   // What WaitForInputs(step) still lacks.
   std::vector<Gap> MissingInputs(Step step) const;
   // What activation `step` still lacks: each source with the oldest sample of it that is not there.
   std::vector<Gap> Missing(Step step) const;
+  // The first of them.
+  std::optional<Gap> FirstMissing(Step step) const;
   // The same for WaitForEventsThrough(last).
   std::vector<Gap> MissingEvents(Step last) const;
 
-  // What activation `step` sees. Call it once everything is there.
-  Inbox Open(Step step);
+  // What activation `step` sees, instead of the inbox's content. Call it once everything is there, with the same inbox
+  // each time or an empty one.
+  void Open(Step step, Inbox& inbox) const;
   // Events in (after, through], whatever has arrived.
   Inbox OpenEvents(Step after, Step through);
   // The newest step through which every event port is complete, beginning behind `after`.
@@ -85,7 +91,7 @@ class Mailbox {
     Step period = 1;
     bool events = false;
     Step first = 0;  // the step of slots.front()
-    std::deque<std::optional<Sample>> slots;
+    Ring<std::optional<Sample>> slots;
 
     const Sample* Find(Step step) const;
   };
@@ -114,6 +120,7 @@ class Mailbox {
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::vector<Track> tracks_;
+  std::vector<std::vector<std::size_t>> tracks_of_ports_;  // of each port's sources
   Grant grant_;
   std::optional<EarlyEnd> early_end_;
   Want want_;  // of the last wait, until it was satisfied

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/recycled_bytes.hpp"
 
 namespace rodeira::lockstep {
 
@@ -23,17 +24,22 @@ void Outbox::Put(std::string_view topic, base::Bytes payload) {
 }
 
 std::vector<Sample> Outbox::Take(Step valid, std::uint32_t incarnation, base::Digest state_digest) {
-  const auto& outputs = roster_.node(node_).outputs;
   std::vector<Sample> samples;
+  TakeInto(valid, incarnation, state_digest, samples);
+  return samples;
+}
+
+void Outbox::TakeInto(Step valid, std::uint32_t incarnation, base::Digest state_digest, std::vector<Sample>& samples) {
+  const auto& outputs = roster_.node(node_).outputs;
+  samples.clear();
   samples.reserve(outputs.size());
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     RODEIRA_ASSERT(!payloads_[i].empty());  // exactly one sample a period, an empty batch if there is nothing to say
     const SampleHeader header{valid, valid * roster_.base_step_ns(), outputs[i], incarnation, state_digest};
     header.Write(payloads_[i]);
-    samples.push_back({header, std::make_shared<const base::Bytes>(std::move(payloads_[i]))});
+    samples.push_back({header, base::ShareBytes(std::move(payloads_[i]))});
     payloads_[i].clear();
   }
-  return samples;
 }
 
 }  // namespace rodeira::lockstep

@@ -33,6 +33,12 @@ class Outbox {
   /// @param state_digest digest of the node's state after the activation
   /// @return the samples with their headers, in the order of the node's outputs
   std::vector<Sample> Take(Step valid, std::uint32_t incarnation, base::Digest state_digest);
+  /// The same into a vector that is used again.
+  /// @param valid step at which the samples are valid
+  /// @param incarnation number of the node's restarts
+  /// @param state_digest digest of the node's state after the activation
+  /// @param samples receives the samples with their headers, in the order of the node's outputs, instead of its content
+  void TakeInto(Step valid, std::uint32_t incarnation, base::Digest state_digest, std::vector<Sample>& samples);
 
  private:
   const Roster& roster_;

@@ -110,7 +110,7 @@ Runner::Outcome Runner::Begin() {
     std::stable_sort(first.begin(), first.end(),
                      [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
-  if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
+  if (auto status = PublishAll(first); !status) return Fail(status.error());
   // The first snapshot is, like every first sample, there before any node is ready.
   begun_at_ = settings_.resume ? settings_.resume->at : next_;
   if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
@@ -176,7 +176,7 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   }
   Note(LifeEvent::kActivated, Waiting::kOutput);
   if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
-  const Inbox inbox = mailbox_.Open(next_);
+  mailbox_.Open(next_, inbox_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
                       static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9,
                       next_ + spec_.delay};
@@ -184,17 +184,17 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   const auto begin = WallClock::now();
   if (begun_step_) intervals_.Add(std::chrono::nanoseconds(begin - *begun_step_).count());
   begun_step_ = begin;
-  const base::Status status = node_.Step(info, inbox, outbox_);
+  const base::Status status = node_.Step(info, inbox_, outbox_);
   const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
   // A server's answer may have failed to come: nothing of this counts. A sink asks no server, and what it has written
   // is written.
-  if (!spec_.is_sink() && mailbox_.grant().abort) return FinishAborted();
+  if (!spec_.is_sink() && mailbox_.is_aborted()) return FinishAborted();
   if (!status) return Fail(status.error());
-  std::vector<Sample> samples =
-      outbox_.Take(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest());
+  outbox_.TakeInto(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest(), samples_);
   {
     const std::lock_guard lock(report_mutex_);
-    for (const Sample& sample : samples) report_.digest = base::Combine(report_.digest, PayloadDigest(*sample.payload));
+    for (const Sample& sample : samples_)
+      report_.digest = base::Combine(report_.digest, PayloadDigest(*sample.payload));
     ++report_.steps;
     report_.busy_ns += took_ns;
     report_.worst_ns = std::max(report_.worst_ns, took_ns);
@@ -202,7 +202,7 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
     report_.waiting = Waiting::kGrant;  // until it is known that something else is missing
     since_ = WallClock::now();
   }
-  if (auto sent = PublishAll(std::move(samples)); !sent) return Fail(sent.error());
+  if (auto sent = PublishAll(samples_); !sent) return Fail(sent.error());
   mailbox_.Forget(next_);
   ForgetOwnSamples(next_);
   return Outcome::kWorking;
@@ -256,11 +256,12 @@ Runner::Outcome Runner::EndWith(LifeEvent event, std::string reason) {
   return phase == Phase::kAborted ? Outcome::kAborted : Outcome::kFailed;
 }
 
-base::Status Runner::PublishAll(std::vector<Sample> samples) {
+base::Status Runner::PublishAll(std::vector<Sample>& samples) {
   for (Sample& sample : samples) {
     if (auto status = bus_.Publish(sample); !status) return status;
     own_.push_back(std::move(sample));
   }
+  samples.clear();
   return {};
 }
 
@@ -334,12 +335,12 @@ void Runner::Note(LifeEvent event, Waiting waiting) {
 }
 
 void Runner::NoteWaiting(Step step) {
-  const auto missing = mailbox_.Missing(step);
+  const auto missing = mailbox_.FirstMissing(step);
   const std::lock_guard lock(report_mutex_);
-  const Waiting waiting = missing.empty() ? Waiting::kGrant : Waiting::kInputs;
+  const Waiting waiting = missing ? Waiting::kInputs : Waiting::kGrant;
   if (report_.waiting != waiting) since_ = WallClock::now();
   report_.waiting = waiting;
-  report_.waiting_source = missing.empty() ? 0 : missing.front().source;
+  report_.waiting_source = missing ? missing->source : 0;
 }
 
 void Runner::BeginServerCall() {

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "common/runtime/lockstep/mailbox.hpp"
 #include "common/runtime/lockstep/node.hpp"
 #include "common/runtime/lockstep/report.hpp"
+#include "common/runtime/lockstep/ring.hpp"
 
 namespace rodeira::lockstep {
 
@@ -61,7 +61,7 @@ class Runner {
   Outcome Fail(const base::Error& error);
   Outcome FinishAborted();
   Outcome EndWith(LifeEvent event, std::string reason);
-  base::Status PublishAll(std::vector<Sample> samples);
+  base::Status PublishAll(std::vector<Sample>& samples);
   Snapshot SnapshotAt(Step step) const;
   base::Status PublishSnapshot(const Snapshot& snapshot);
   base::Status TakeSnapshotIfDue(Step step);
@@ -80,11 +80,13 @@ class Runner {
   Settings settings_;
   Outbox outbox_;
   Stage stage_ = Stage::kBegin;
-  Step begun_at_ = 0;       // 0, or the step of the snapshot that was resumed
-  Step next_ = 0;           // the next activation
-  Step settled_ = -1;       // everything before it is done, by the node's own threads too
-  Step told_ = -1;          // the progress last told
-  std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need
+  Step begun_at_ = 0;            // 0, or the step of the snapshot that was resumed
+  Step next_ = 0;                // the next activation
+  Step settled_ = -1;            // everything before it is done, by the node's own threads too
+  Step told_ = -1;               // the progress last told
+  Inbox inbox_;                  // of the last activation, used again
+  std::vector<Sample> samples_;  // being published
+  Ring<Sample> own_;             // own samples that a snapshot or a late peer may still need
   base::StateWriter state_without_names_{base::StateWriter::Names::kWithout};
 
   mutable std::mutex report_mutex_;

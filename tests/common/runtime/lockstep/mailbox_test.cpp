@@ -80,7 +80,8 @@ TEST_F(MailboxTest, WaitsForExactlyTheSamplesOfTheLaw) {
   ASSERT_TRUE(mailbox_.Deliver(Make(1, 6, 6)).ok());
   ASSERT_TRUE(mailbox_.Deliver(Make(1, 2, 2)).ok());
   EXPECT_EQ(mailbox_.WaitForActivation(5, 0ms), Mailbox::Woken::kReady);
-  const Inbox inbox = mailbox_.Open(5);
+  Inbox inbox;
+  mailbox_.Open(5, inbox);
   EXPECT_EQ(law::ContentOf(inbox.Latest("a")), 1u);
   ASSERT_EQ(inbox.All("b").size(), 2u);
   EXPECT_EQ(inbox.All("b")[0].valid(), 2);
