@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/analysis/measures/condition.hpp"
 #include "common/analysis/measures/drive.hpp"
 #include "common/core/base/result.hpp"
 #include "common/data/decode/aliases.hpp"
@@ -35,6 +36,7 @@ struct DriveQuery {
 struct DriveReading {
   Drive drive;
   std::vector<DriveEvent> events;  // by time
+  std::vector<NamedRoad> roads;    // that conditions may name
 };
 
 // Reads a recording once and rebuilds the kinematics of one road user, at 100 Hz or at the vehicle's own rate if that

@@ -162,10 +162,17 @@ std::vector<Interval> FindIntervals(const IntervalSpec& spec, const DriveReading
   const Drive& drive = reading.drive;
   Interval whole = FindInterval(spec, reading.events, static_cast<double>(drive.size()) / drive.rate_hz);
   if (!spec.condition || !whole.reason.empty()) return {whole};
+  Condition condition = *spec.condition;
+  if (std::string reason = condition.FindRoads(reading.roads); !reason.empty()) {
+    whole.from_s = whole.to_s = kMissing;
+    whole.reason = std::move(reason);
+    whole.unknown = true;
+    return {whole};
+  }
   const auto [from, to] = SamplesOf(whole, drive.rate_hz, drive.size());
   std::vector<Interval> intervals;
   std::size_t all = 0;
-  for (const auto& [begin, end] : SamplesWhile(*spec.condition, drive, from, to)) {
+  for (const auto& [begin, end] : SamplesWhile(condition, drive, from, to)) {
     ++all;
     if (static_cast<double>(end - begin) < spec.min_s * drive.rate_hz - 1e-6) continue;
     Interval interval = whole;

@@ -46,7 +46,7 @@ struct Interval {
   std::string name;
   double from_s = 0.0, to_s = 0.0;
   std::string reason;    // why there is none in this recording; empty: there is
-  bool unknown = false;  // a mark or an event of that name is not there at all
+  bool unknown = false;  // a mark, event or road of that name is not there at all
 };
 // end_s: the time behind the last sample. An interval that goes on beyond it ends there.
 Interval FindInterval(const IntervalSpec& spec, std::span<const DriveEvent> events, double end_s);

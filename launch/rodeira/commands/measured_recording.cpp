@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/world/road/road_chains.hpp"
 #include "idl/aliases.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/content_digest.hpp"
@@ -17,6 +18,21 @@ namespace {
 std::string MetaOf(const record::TextMap& meta, const char* key) {
   const auto found = meta.find(key);
   return found == meta.end() ? std::string() : found->second;
+}
+
+// By their names in files, as in a scenario file: a road of the network alone, or the whole road that it is a part of.
+std::vector<measures::NamedRoad> NamedRoads(const network::Network& network) {
+  std::vector<measures::NamedRoad> roads;
+  for (const road::RoadChain& chain : road::ChainsOf(network)) {
+    if (network.FindRoad(road::IdOf(network, chain))) continue;
+    measures::NamedRoad& named = roads.emplace_back();
+    named.name = road::IdOf(network, chain);
+    for (const road::RoadChain::Part& part : chain.parts)
+      named.parts.push_back({static_cast<double>(part.road), part.from_s_m});
+  }
+  for (std::size_t i = 0; i < network.roads().size(); ++i)
+    roads.push_back({network.roads()[i].id(), {{static_cast<double>(i), 0.0}}});
+  return roads;
 }
 
 }  // namespace
@@ -70,6 +86,7 @@ base::Result<MeasuredRecording> ReadMeasured(const std::string& file, const std:
   auto reading = measures::ReadDrive(run.value().reader(), world == nullptr ? nullptr : world->network(), query);
   if (!reading) return reading.error().In(file);
   MeasuredRecording measured{world, std::move(reading).value(), {}, {}};
+  if (world != nullptr && world->network() != nullptr) measured.reading.roads = NamedRoads(*world->network());
   measures::RecordingFacts& facts = measured.facts;
   facts.file = file;
   facts.subject = measured.reading.drive.subject;

@@ -57,7 +57,7 @@ std::vector<measures::MeasuresRow> RowsOf(const measures::MeasuresSpec& spec, co
 base::Result<measures::MeasuresSpec> MeasuresSpecOf(const std::string& file, const std::vector<std::string>& intervals,
                                                     const std::string& baseline, const std::string& subject);
 
-// Wrong input where an interval's mark or event is in none of the recordings.
+// Wrong input where an interval's mark, event or road is in none of the recordings.
 base::Status CheckIntervalNames(const measures::MeasuresSpec& spec, const std::vector<measures::MeasuresRow>& rows);
 
 }  // namespace rodeira::cli

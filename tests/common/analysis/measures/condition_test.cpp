@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/analysis/measures/intervals.hpp"
@@ -110,6 +111,52 @@ TEST(Condition, ShortTimesAreLeftOutAndTimesLimitIt) {
   EXPECT_NE(FindIntervals(spec, RingDrive()).at(0).reason.find("never holds for 2.01 s"), std::string::npos);
 }
 
+// The ring as road 0 to station 100, 1 to 120 and 2 to 300, each with stations of its own: together the road 'ring'.
+DriveReading RingInParts() {
+  DriveReading ring = RingDrive();
+  constexpr std::array kBegin_m{0.0, 100.0, 120.0};
+  ring.drive.road.resize(ring.drive.size());
+  for (std::size_t k = 0; k < ring.drive.size(); ++k) {
+    double& s = ring.drive.s_m[k];
+    const std::size_t part = s >= kBegin_m[2] ? 2 : s >= kBegin_m[1] ? 1 : 0;
+    ring.drive.road[k] = static_cast<double>(part);
+    s -= kBegin_m.at(part);
+  }
+  ring.roads = {{"ring", {{0.0, 0.0}, {1.0, 100.0}, {2.0, 120.0}}}, {"ring/1", {{0.0, 0.0}}}, {"ring/2", {{2.0, 0.0}}}};
+  return ring;
+}
+
+// Stations count from the beginning of the road that is named: the whole one, or a part.
+TEST(Condition, ARoadHasItsNameOrItsIndex) {
+  const DriveReading ring = RingInParts();
+  for (const char* text :
+       {"a=while road == 'ring' and s_m >= 60 and s_m < 150", "a=while road==ring and s_m>=60 and s_m<150",
+        "a=while s_m >= 60 and s_m < 150 and road == 'ring'"}) {
+    const auto whole = Found(text, ring);
+    ASSERT_EQ(whole.size(), 2u) << text;
+    EXPECT_EQ(whole[1].from_s, 24.0);
+    EXPECT_EQ(whole[1].to_s, 30.0);
+  }
+  for (const char* text : {"a=while road == 'ring/2' and s_m >= 30", "a=while road == 2 and s_m >= 30"}) {
+    const auto part = Found(text, ring);
+    ASSERT_EQ(part.size(), 2u) << text;
+    EXPECT_EQ(part[0].from_s, 10.0);
+    EXPECT_EQ(part[0].to_s, 20.0);
+  }
+  const auto other = Found("a=while road != 'ring/2'", ring);
+  ASSERT_EQ(other.size(), 2u);
+  EXPECT_EQ(other[0].to_s, 8.0);
+}
+
+TEST(Condition, ARoadThatTheWorldDoesNotHaveIsUnknown) {
+  const auto none = Found("a=while road == 'rinf'", RingInParts());
+  ASSERT_EQ(none.size(), 1u);
+  EXPECT_TRUE(none[0].unknown);
+  EXPECT_NE(none[0].reason.find("'ring'"), std::string::npos) << none[0].reason;
+  const auto plane = Found("a=while road == 'ring'", RingDrive());
+  EXPECT_TRUE(plane.at(0).unknown);
+}
+
 TEST(Condition, WrongConditionsAreRefusedWithTheNearestName) {
   const std::pair<const char*, const char*> wrong[]{{"sped_mps > 20", "did you mean 'speed_mps'?"},
                                                     {"speed_mps", "is no comparison"},
@@ -119,6 +166,9 @@ TEST(Condition, WrongConditionsAreRefusedWithTheNearestName) {
                                                     {"speed_mps = 20", "'=' compares nothing"},
                                                     {"speed_mps => 20", "'=>' compares nothing"},
                                                     {"speed_mps > fast", "'fast' is no number"},
+                                                    {"road > valley", "'valley' is no number"},
+                                                    {"road == ''", "is no number"},
+                                                    {"lane == 'valley'", "is no number"},
                                                     {"speed_mps > nan", "'nan' is no number"},
                                                     {"speed_mps > 20 or lane == 1", "is no number"},
                                                     {"speed_mps > 1 and lne == 1", "did you mean 'lane'?"}};
