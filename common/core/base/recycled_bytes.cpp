@@ -17,7 +17,7 @@ constexpr std::size_t kSizes = static_cast<std::size_t>(std::countr_zero(kMaxRec
 constexpr std::size_t kMaxOfOneSize_bytes = std::size_t{1} << 20;  // of buffers that wait, all together
 constexpr std::size_t kMaxCount = 256;
 
-constexpr std::size_t RoomOf(std::size_t size_class) { return kLeast_bytes << size_class; }
+constexpr std::size_t CapacityOf(std::size_t size_class) { return kLeast_bytes << size_class; }
 
 template <class T>
 class Shelf {
@@ -49,7 +49,7 @@ class Shelf {
 template <std::size_t... kClass>
 Shelf<Bytes>* ShelvesOf(std::index_sequence<kClass...>) {
   return new Shelf<Bytes>[sizeof...(kClass)] {
-    Shelf<Bytes>(std::min(kMaxCount, kMaxOfOneSize_bytes / RoomOf(kClass)))...
+    Shelf<Bytes>(std::min(kMaxCount, kMaxOfOneSize_bytes / CapacityOf(kClass)))...
   };
 }
 
@@ -102,16 +102,16 @@ Bytes TakeBytes(std::size_t size) {
   }
   const std::size_t units = (std::max(size, kLeast_bytes) + kLeast_bytes - 1) / kLeast_bytes;
   const auto size_class = static_cast<std::size_t>(std::countr_zero(std::bit_ceil(units)));
-  if (!ShelfOf(size_class).Take(bytes)) bytes.reserve(RoomOf(size_class));
+  if (!ShelfOf(size_class).Take(bytes)) bytes.reserve(CapacityOf(size_class));
   return bytes;
 }
 
 void RecycleBytes(Bytes&& bytes) {
   Bytes given = std::move(bytes);
-  const std::size_t room = given.capacity();
-  if (room < kLeast_bytes || room >= 2 * kMaxRecycled_bytes) return;
+  const std::size_t capacity = given.capacity();
+  if (capacity < kLeast_bytes || capacity >= 2 * kMaxRecycled_bytes) return;
   given.clear();
-  (void)ShelfOf(static_cast<std::size_t>(std::bit_width(room / kLeast_bytes)) - 1).Keep(given);
+  (void)ShelfOf(static_cast<std::size_t>(std::bit_width(capacity / kLeast_bytes)) - 1).Keep(given);
 }
 
 std::shared_ptr<const Bytes> ShareBytes(Bytes bytes) {

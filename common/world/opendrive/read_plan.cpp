@@ -78,13 +78,13 @@ void TellNoElements(const Node& road) {
 }
 
 // An element without length, where it stands.
-struct Standing {
+struct EmptyElement {
   std::size_t line;
   double s_m;
 };
 
-void TellWithoutLength(Source& source, const std::vector<Standing>& elements) {
-  for (const Standing& each : elements) {
+void TellWithoutLength(Source& source, const std::vector<EmptyElement>& elements) {
+  for (const EmptyElement& each : elements) {
     source.warnings.push_back({"road.geometry.length", "an element has no length: it is passed over", each.line,
                                source.where.road, std::nullopt, each.s_m});
   }
@@ -94,7 +94,7 @@ void TellWithoutLength(Source& source, const std::vector<Standing>& elements) {
 
 std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
   std::vector<PlanElement> elements;
-  std::vector<Standing> without_length;
+  std::vector<EmptyElement> without_length;
   const std::size_t before = road.source().errors.size();
   for (const Node& geometry : road.Child("planView").Children("geometry")) {
     Within within(geometry.source());

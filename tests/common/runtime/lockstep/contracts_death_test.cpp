@@ -105,7 +105,7 @@ TEST(ContractsDeathTest, ASteppedRunGoesForwardsUntilItsEnd) {
 class NoBus final : public Bus {
  public:
   base::Status Publish(const Sample&) override { return {}; }
-  void Ask(const Gap&) override {}
+  void SendNack(const Gap&) override {}
   void Tell(const Report&) override {}
 };
 
