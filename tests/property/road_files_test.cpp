@@ -56,7 +56,7 @@ TEST(RoadFiles, OpenDrive) {
        {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
        [](const std::string& text) -> std::optional<base::Error> {
          opendrive::Tolerance loose;  // so that many mutated roads are driven on too
-         loose.gap_m = 1e6;  // larger ones are tables of stations as long as they
+         loose.gap_m = 1e6;           // larger ones are tables of stations as long as they
          loose.kink_rad = 10.0;
          const auto import = opendrive::Read(text, "fuzz.xodr", loose);
          if (!import) return import.error();
