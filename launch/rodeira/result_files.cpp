@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace rodeira::cli {
@@ -16,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr const char* kForce = "--force";
 constexpr const char* kFile = "new file";  // names of validators
 constexpr const char* kFolder = "new folder";
-constexpr const char* kBeside = "also writes ";  // … ENDING WHEN
+constexpr const char* kBeside = "also writes ";    // … ENDING WHEN
+constexpr const char* kRenewed = "renewed with ";  // … FILE
 
 bool HasValidator(CLI::Option& option, const char* name) {
   try {
@@ -28,24 +31,32 @@ bool HasValidator(CLI::Option& option, const char* name) {
 
 bool NamesResult(CLI::Option* option) { return HasValidator(*option, kFile) || HasValidator(*option, kFolder); }
 
+// What follows in the name of the option's validator that begins with `begin`, from number `i` on, which is then that
+// of the next one; nothing: there is none.
+std::optional<std::string> NextNamed(CLI::Option& option, const char* begin, int& i) {
+  while (true) {
+    const CLI::Validator* validator = nullptr;
+    try {
+      validator = option.get_validator(i++);
+    } catch (const CLI::OptionNotFound&) {
+      return std::nullopt;
+    }
+    const std::string name = validator->get_name();
+    if (name.starts_with(begin)) return name.substr(std::string_view(begin).size());
+  }
+}
+
 // The first file that is there of those that are written beside one; empty: there is none.
 fs::path FoundBeside(CLI::Option& option, const fs::path& file) {
   std::error_code problem;
-  for (int i = 0;; ++i) {
-    const CLI::Validator* validator = nullptr;
-    try {
-      validator = option.get_validator(i);
-    } catch (const CLI::OptionNotFound&) {
-      return {};
-    }
-    const std::string name = validator->get_name();
-    if (!name.starts_with(kBeside)) continue;
-    const std::string endings = name.substr(std::string_view(kBeside).size());
-    const auto space = endings.find(' ');
-    const std::string when = endings.substr(space + 1);
-    const fs::path beside = fs::path(file).replace_extension(endings.substr(0, space));
+  int i = 0;
+  while (const auto endings = NextNamed(option, kBeside, i)) {
+    const auto space = endings->find(' ');
+    const std::string when = endings->substr(space + 1);
+    const fs::path beside = fs::path(file).replace_extension(endings->substr(0, space));
     if ((when.empty() || file.extension() == when) && fs::is_regular_file(beside, problem)) return beside;
   }
+  return {};
 }
 
 // Empty: nothing would be replaced.
@@ -61,7 +72,15 @@ std::string WhyNot(CLI::Option& option, const std::string& path) {
                                 beside.filename().string());
   }
   if (!fs::is_directory(path, problem) || fs::is_empty(path, problem) || problem) return "";
-  return "the folder is not empty; name another one, or replace its files by --force";
+  int i = 0;
+  const auto renewed = NextNamed(option, kRenewed, i);
+  if (!renewed) return "the folder is not empty; name another one, or replace its files by --force";
+  if (fs::is_regular_file(fs::path(path) / *renewed, problem)) return "";
+  return fmt::format(
+      "the folder is not empty, and without '{}' it is none that this command wrote; name another one, or write into "
+      "it "
+      "by --force",
+      *renewed);
 }
 
 }  // namespace
@@ -83,6 +102,10 @@ CLI::Validator AlsoWrites(const std::string& ending, const std::string& when) {
 
 CLI::Validator NewFolder() {
   return CLI::Validator([](std::string&) { return std::string(); }, "FOLDER", kFolder);
+}
+
+CLI::Validator RenewedWith(const std::string& file) {
+  return CLI::Validator([](std::string&) { return std::string(); }, "", kRenewed + file);
 }
 
 void AddForce(CLI::App& app) {

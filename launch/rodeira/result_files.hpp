@@ -18,6 +18,8 @@ CLI::Validator NewFile();
 CLI::Validator AlsoWrites(const std::string& ending, const std::string& when = "");
 // A folder to write files into; it is made where it is missing.
 CLI::Validator NewFolder();
+// Beside NewFolder: a folder with a file of this name is one that the command wrote before; it is written again.
+CLI::Validator RenewedWith(const std::string& file);
 
 // Adds `--force` to each command of `app` with such an option.
 void AddForce(CLI::App& app);
@@ -26,7 +28,7 @@ void AddForce(CLI::App& app);
 bool IsForced(const CLI::App& command);
 
 // After parsing: wrong input where such an option of the chosen command names a regular file, also one beside it, or a
-// folder that is not empty, and the command line has no `--force`. Devices and pipes are written to.
+// folder that is not empty nor renewed, and the command line has no `--force`. Devices and pipes are written to.
 base::Status CheckResults(CLI::App& app);
 
 }  // namespace rodeira::cli

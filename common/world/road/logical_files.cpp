@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kKind = "rodeira: logical/1";
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 // Copies a file and all that belongs to it, by paths from one folder to those from the other.
@@ -90,9 +91,18 @@ base::Result<std::vector<fs::path>> CopyNamed(const fs::path& world_file, const 
   return copier.copied();
 }
 
+base::Status BeginLogical(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (!fs::is_directory(folder, problem))
+    return base::WrongInput("file.not_folder", "this is no folder, and none can be made", folder.string());
+  if (fs::exists(folder / kLogicalManifest, problem)) return {};
+  return base::WriteWhole(folder / kLogicalManifest, fmt::format("{}\n", kKind));
+}
+
 base::Status WriteLogical(const fs::path& folder, base::Digest content_hash, std::vector<fs::path> files) {
   std::sort(files.begin(), files.end());
-  std::string text = fmt::format("rodeira: logical/1\ncontent_hash: {}\n", base::Hex(content_hash));
+  std::string text = fmt::format("{}\ncontent_hash: {}\n", kKind, base::Hex(content_hash));
   for (const fs::path& name : files) {
     const auto bytes = base::ReadBytes(folder / name);
     if (!bytes) return bytes.error();
@@ -121,11 +131,14 @@ std::vector<base::Error> LogicalProblems(const fs::path& folder) {
   std::istringstream lines(text.value());
   std::string line;
   std::getline(lines, line);
-  if (line != "rodeira: logical/1")
+  if (line != kKind)
     return {base::WrongInput("world.wrong_manifest",
-                             fmt::format("the first line is '{}'; 'rodeira: logical/1' was expected", line),
+                             fmt::format("the first line is '{}'; '{}' was expected", line, kKind),
                              (folder / kLogicalManifest).string())};
-  std::getline(lines, line);  // the content hash
+  if (!std::getline(lines, line))  // the content hash
+    return {base::WrongInput("world.built_file_missing",
+                             "the build of this folder did not end; `rodeira world build` writes it again",
+                             folder.string())};
   while (std::getline(lines, line)) {
     const std::size_t gap = line.find(' ');
     const fs::path name(gap == std::string::npos ? "" : line.substr(gap + 1));

@@ -23,6 +23,10 @@ inline constexpr const char* kLogicalManifest = "logical.txt";
 base::Result<std::vector<std::filesystem::path>> CopyNamed(const std::filesystem::path& world_file,
                                                            const std::filesystem::path& folder);
 
+// Makes the folder, and a `logical.txt` without a world where there is none: what is written into the folder from now
+// on is a build that has not ended.
+base::Status BeginLogical(const std::filesystem::path& folder);
+
 // Writes `logical.txt`. files: from the folder, in any order, once each.
 base::Status WriteLogical(const std::filesystem::path& folder, base::Digest content_hash,
                           std::vector<std::filesystem::path> files);

@@ -189,6 +189,7 @@ int Build(const WorldOptions& options) {
   if (!loaded) return base::PrintError("rodeira", loaded.error());
   const road::World& world = *loaded.value();
   const std::filesystem::path out(options.out), copy = out / "world.xodr";
+  if (auto status = road::BeginLogical(out); !status) return base::PrintError("rodeira", status.error());
   std::vector<std::filesystem::path> files;
   if (!road::IsOpenDrive(options.world_file)) {
     if (const int status = WriteWorldFile(options, world, files); status != 0) return status;

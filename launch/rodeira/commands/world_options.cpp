@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/world/road/logical_files.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/option_errors.hpp"
@@ -43,7 +44,10 @@ void AddWorld(CLI::App& app, ChosenCommand& chosen) {
                         "X and Y are longitude and latitude (WGS 84, degrees) by the world's projection");
     }
     if (std::string(name) == "build") {
-      command->add_option("-o,--out", options->out, "folder")->required();
+      command->add_option("-o,--out", options->out, "folder")
+          ->required()
+          ->check(NewFolder())
+          ->check(RenewedWith(road::kLogicalManifest));
       command->add_option("--threads", options->threads, "how many at once; as many as the machine has otherwise");
       command->add_flag("--quiet", options->quiet, "no progress");
     }

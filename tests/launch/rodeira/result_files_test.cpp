@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,23 @@ TEST_F(ResultFiles, AFolderWithFilesNeedsForce) {
   EXPECT_THAT(refused.error(), IsError("file.exists", "rodeira write: --tables … full … --force"));
 }
 
+// What a command wrote before it writes again; a folder that holds anything else it does not touch.
+TEST_F(ResultFiles, AFolderIsRenewedByTheCommandThatWroteIt) {
+  const std::string world = folder_.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n").string();
+  const auto build = [&](const std::string& out) {
+    return system_test::RunCommand({Bin("rodeira"), "world", "build", world, "-o", out, "--quiet", "--json"});
+  };
+  EXPECT_EQ(build(Path("built")).status, 0);
+  EXPECT_EQ(build(Path("built")).status, 0);
+  std::filesystem::remove(Path("built") + "/logical.txt");
+  EXPECT_EQ(build(Path("built")).status, 2);
+
+  (void)folder_.Write("tables/a.csv", "precious");
+  EXPECT_THAT(build(Path("tables")).out, Names("file.exists … --force … world build: --out … tables"));
+  const std::filesystem::directory_iterator left(Path("tables"));
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "nothing was written";
+}
+
 // "town.xodr" is written beside "town.yaml", and beside no other file.
 TEST_F(ResultFiles, WhatIsWrittenBesideOneIsNotReplacedEither) {
   (void)folder_.Write("town.xodr", "precious");
@@ -105,6 +123,7 @@ TEST_F(ResultFiles, EveryCommandThatWritesKeepsTheRule) {
            {"surface", "check", none, "--svg", old},
            {"map", "convert", none, "-o", old},
            {"world", "map", none, "-o", old},
+           {"world", "build", none, "-o", full},
            {"world", "export", none, "-o", old},
            {"world", "import", none, "-o", old},
            {"world", "check", none, "--repair", old},

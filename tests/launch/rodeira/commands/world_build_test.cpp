@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "common/core/base/files.hpp"
+#include "common/world/road/logical_files.hpp"
 #include "common/world/road/world.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
 #include "tests/launch/rodeira/commands/world_fixture.hpp"
@@ -243,6 +244,22 @@ TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
   EXPECT_EQ(World(check), 2);
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               HasSubstr("there is no 'logical.txt'; a folder that `rodeira world build` wrote was expected"));
+}
+
+// A build that was interrupted is told from one that ended, and goes on into its folder.
+TEST(WorldBuild, AFolderThatWasNotWrittenToItsEndIsRefusedUntilItIs) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "w.yaml", out = folder.path() / "out";
+  ASSERT_TRUE(base::WriteWhole(file, std::string("rodeira: world/2\nname: w\nground: {kind: plane}\n")).ok());
+  ASSERT_TRUE(road::BeginLogical(out).ok());
+  EXPECT_EQ(road::LogicalContentHash(out), "");
+  const Said begun = AskedOfWorld("check", out);
+  EXPECT_EQ(begun.status, 2);
+  EXPECT_THAT(begun.errors, HasLine("rodeira: " + out.string() + " … did not end"));
+  ASSERT_EQ(Build(file, out).status, 0);
+  EXPECT_EQ(AskedOfWorld("check", out).status, 0);
+  ASSERT_TRUE(road::BeginLogical(out).ok());
+  EXPECT_EQ(AskedOfWorld("check", out).status, 0) << "a folder that is renewed is what it was until it is written";
 }
 
 // What is seen is part of the folder: a tile that is broken or missing, a line that says nothing, tiles of another
