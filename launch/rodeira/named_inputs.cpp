@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "common/core/config/config.hpp"
 #include "common/core/config/quoted.hpp"
 
 namespace rodeira::cli {
@@ -23,6 +24,19 @@ std::optional<InputKind> KindOf(std::string_view key) {
   if (key.starts_with(kNodes) && key.ends_with(kVehicle) && key.size() > kNodes.size() + kVehicle.size())
     return InputKind::kVehicle;
   return std::nullopt;
+}
+
+// Whether the node that a key `nodes.NODE.config.vehicle` names has a vehicle, as far as can be told.
+bool MayHaveVehicle(std::string_view key, const launch::Overrides& overrides, const fs::path& launch_file) {
+  constexpr std::string_view kNodes = "nodes.";
+  const std::string node(key.substr(kNodes.size(), key.find('.', kNodes.size()) - kNodes.size()));
+  std::string kind;
+  if (const auto file = config::File::Load(launch_file))
+    kind = file.value().root().Peek({"nodes", node, "kind"}).value_or("");
+  for (const auto& [other, value] : overrides) {
+    if (other == fmt::format("nodes.{}.kind", node)) kind = value;
+  }
+  return kind.empty() || kind == "vehicle" || kind == "input" || kind == "external";
 }
 
 // Words with a meaning of their own in YAML are no names: null, quoted texts, lists, mappings.
@@ -45,7 +59,8 @@ base::Result<launch::Overrides> WithNamedInputs(const launch::Overrides& overrid
   std::error_code problem;
   for (auto& [key, value] : renamed) {
     const auto kind = KindOf(key);
-    if (!kind || !CanBeName(value) || fs::is_regular_file(value, problem) ||
+    if (!kind || (*kind == InputKind::kVehicle && !MayHaveVehicle(key, overrides, launch_file))) continue;
+    if (!CanBeName(value) || fs::is_regular_file(value, problem) ||
         fs::exists(launch_file.parent_path() / value, problem))
       continue;
     const auto file = ResolveInputFile(*kind, value, folders);

@@ -160,6 +160,7 @@ base::Status File::Override(std::string_view key, std::string_view value) {
   YAML::Node at;
   at.reset(context_->root);
   std::size_t from = 0;
+  std::string made;
   for (;;) {
     const std::size_t dot = key.find('.', from);
     const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
@@ -169,7 +170,9 @@ base::Status File::Override(std::string_view key, std::string_view value) {
                               fmt::format("'{}' is {}, no mapping{}", key.substr(0, from == 0 ? 0 : from - 1),
                                           KindOf(at), NamesAFile(at) ? "; change the key in a copy of that file" : ""),
                               where);
+    if (made.empty() && (dot == std::string_view::npos || !Find(at, part).IsDefined())) made = key.substr(0, dot);
     if (dot == std::string_view::npos) {
+      context_->overrides.push_back({std::string(key), made, where});
       if (leaf.value().IsNull())
         at.remove(part);
       else
@@ -196,13 +199,13 @@ std::vector<base::Error> File::Problems() const {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
       if (!item.first.IsScalar()) {
-        all.push_back({LineOf(item.first), "config.wrong_key", "a key is not a scalar", ""});
+        all.push_back({LineOf(item.first), "config.wrong_key", "a key is not a scalar", "", asked.path});
         continue;
       }
       const std::string key = item.first.Scalar();
       if (!seen.insert(key).second)
         all.push_back({LineOf(item.first), "config.duplicate_key",
-                       fmt::format("key '{}' appears twice", Sub(asked.path, key)), ""});
+                       fmt::format("key '{}' appears twice", Sub(asked.path, key)), "", Sub(asked.path, key)});
       if (asked.keys.contains(key)) continue;
       if (strange.size() + misspelt.size() >= kMaxUnknown) break;
       std::set<std::string, std::less<>> known = asked.keys;
@@ -216,7 +219,7 @@ std::vector<base::Error> File::Problems() const {
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
       (meant.key.empty() ? strange : misspelt)
           .push_back({LineOf(item.first), "config.unknown_key",
-                      fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+                      fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), "", Sub(asked.path, key)});
     }
   }
   // What is misspelt comes before what is missing in its line, perhaps for that; what no reader asked for behind both,
@@ -234,7 +237,7 @@ std::vector<base::Error> File::Problems() const {
                         [](const auto& problem) { return problem.id == base::ErrorId("config.other_kind"); });
   std::vector<base::Error> errors;
   for (auto& problem : all)
-    errors.push_back(base::WrongInput(problem.id, problem.message, PlaceOf(*context_, problem.line)));
+    errors.push_back(base::WrongInput(problem.id, problem.message, PlaceOf(*context_, problem.path, problem.line)));
   return errors;
 }
 

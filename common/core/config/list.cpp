@@ -15,11 +15,12 @@ List::List(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::Yam
 std::size_t List::size() const { return node_->present ? node_->node.size() : 0; }
 
 std::string List::Place(std::size_t index) const {
-  return PlaceOf(*context_, index < size() ? LineOf(node_->node[index]) : 0);
+  return PlaceOf(*context_, fmt::format("{}[{}]", path_, index), index < size() ? LineOf(node_->node[index]) : 0);
 }
 
 void List::Problem(std::size_t index, base::ErrorId id, std::string message) const {
-  context_->Add(index < size() ? LineOf(node_->node[index]) : 0, id, std::move(message));
+  context_->Add(index < size() ? LineOf(node_->node[index]) : 0, fmt::format("{}[{}]", path_, index), id,
+                std::move(message));
 }
 
 Map List::At(std::size_t index) const {
@@ -68,7 +69,7 @@ std::vector<double> List::Numbers(std::size_t index) const {
   for (const auto& item : found) {
     const auto value = item.IsScalar() ? ToNumber(item.Scalar()) : std::nullopt;
     if (!value)
-      context_->Add(LineOf(item), "config.wrong_type",
+      context_->Add(LineOf(item), fmt::format("{}[{}]", path_, index), "config.wrong_type",
                     fmt::format("'{}[{}]' holds {}; numbers were expected", path_, index, KindOf(item)));
     values.push_back(value.value_or(0.0));
   }

@@ -36,20 +36,20 @@ bool Map::Has(std::string_view key) const {
   return node_->present && Find(node_->node, key).IsDefined();
 }
 
-std::string Map::Place() const { return PlaceOf(*context_, node_->present ? LineOf(node_->node) : 0); }
+std::string Map::Place() const { return PlaceOf(*context_, path_, node_->present ? LineOf(node_->node) : 0); }
 
 std::string Map::Place(std::string_view key) const {
-  return PlaceOf(*context_, node_->present ? LineOfKey(node_->node, key) : 0);
+  return PlaceOf(*context_, Sub(path_, key), node_->present ? LineOfKey(node_->node, key) : 0);
 }
 
 void Map::Problem(std::string_view key, base::ErrorId id, std::string message) const {
   if (node_->present && node_->node.IsMap()) context_->keys_read[{LineOf(node_->node), path_}].wrong = true;
-  context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, id, std::move(message));
+  context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, Sub(path_, key), id, std::move(message));
 }
 
 void Map::Missing(std::string_view key, std::string_view expected) const {
   const std::string path = Sub(path_, key);
-  context_->Add(LineOf(node_->node), "config.missing_key",
+  context_->Add(LineOf(node_->node), path, "config.missing_key",
                 fmt::format("key '{}' is missing; {} was expected", path, expected), path);
 }
 
@@ -146,7 +146,7 @@ std::string Map::Choice(std::string_view key, const std::vector<std::string>& al
 }
 
 std::filesystem::path Map::Path(std::string_view key) const {
-  const std::string text = Text(key);
+  const std::string text = Scalar<std::string>(key, true, "a path").value_or("");
   return text.empty() ? std::filesystem::path() : (context_->path.parent_path() / text).lexically_normal();
 }
 std::optional<std::filesystem::path> Map::OptionalPath(std::string_view key) const {

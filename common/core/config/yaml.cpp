@@ -13,6 +13,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,7 +102,19 @@ void CheckDocument(const std::string& text) {
 
 int LineOf(const YAML::Node& node) { return node.IsDefined() && !node.Mark().is_null() ? node.Mark().line + 1 : 0; }
 
-std::string PlaceOf(const detail::Context& context, int line) {
+namespace {
+
+// "a.b" and "a.b[0]" lie within "a.b", and within "a".
+bool LiesWithin(std::string_view path, std::string_view key) {
+  return path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.' || path[key.size()] == '[');
+}
+
+}  // namespace
+
+std::string PlaceOf(const detail::Context& context, const std::string& path, int line) {
+  for (auto one = context.overrides.rbegin(); one != context.overrides.rend(); ++one) {
+    if (LiesWithin(path, one->key) || (LiesWithin(one->key, path) && LiesWithin(path, one->made))) return one->place;
+  }
   return line > 0 ? fmt::format("{}:{}", context.path.string(), line) : context.path.string();
 }
 

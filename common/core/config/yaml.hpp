@@ -33,6 +33,14 @@ struct Problem {
   base::ErrorId id;
   std::string message;
   std::string missing;  // the key's path, where it is that a key is missing
+  std::string path;     // of the key or value
+};
+
+// A key that an option of the command line set.
+struct Override {
+  std::string key;
+  std::string made;   // the first key on the way to it that the file does not have; the key itself where it has all
+  std::string place;  // the option, for errors
 };
 
 // State of a File, shared by its maps and lists: the text, its nodes, the problems, and the keys that were read.
@@ -40,6 +48,7 @@ struct Context {
   std::filesystem::path path;
   std::string text;
   YAML::Node root;
+  std::vector<Override> overrides;
   std::vector<Problem> problems;
   // Which keys of which mapping were asked for; the mapping is named by its mark in the text.
   struct KeysRead {
@@ -51,8 +60,8 @@ struct Context {
   };
   std::map<std::pair<int, std::string>, KeysRead> keys_read;
 
-  void Add(int line, base::ErrorId id, std::string message, std::string missing = "") {
-    problems.push_back({line, id, std::move(message), std::move(missing)});
+  void Add(int line, std::string at, base::ErrorId id, std::string message, std::string missing = "") {
+    problems.push_back({line, id, std::move(message), std::move(missing), std::move(at)});
   }
 };
 
@@ -62,8 +71,9 @@ struct Context {
 int LineOf(const YAML::Node& node);
 // The line of a key of a mapping, of the mapping itself where it has no such key.
 int LineOfKey(const YAML::Node& map, std::string_view key);
-// "file:line", "file" where the line is 0.
-std::string PlaceOf(const detail::Context& context, int line);
+// The option that set the key or value at `path`, the last one of several; otherwise "file:line", "file" where the line
+// is 0.
+std::string PlaceOf(const detail::Context& context, const std::string& path, int line);
 // What stands there, for a sentence: "a list", "'12x'".
 std::string KindOf(const YAML::Node& node);
 // "a.b" of "a" and "b".

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <set>
+#include <string>
 
 #include "common/core/base/print_error.hpp"
+#include "common/core/base/printable.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/repair.hpp"
 #include "common/data/record/sink.hpp"
@@ -42,10 +45,23 @@ void PrintSources(const RecordingAudit& audit) {
   }
 }
 
+// "KEY=VALUE", where the attachment is a `--set` of the run.
+std::optional<std::string> OverrideIn(const record::McapReader& in, const record::AttachmentInfo& info) {
+  if (info.name != "override") return std::nullopt;
+  const auto attachment = in.ReadAttachment(info);
+  if (!attachment) return std::nullopt;
+  const auto& data = attachment.value().data;
+  return base::Printable({reinterpret_cast<const char*>(data.data()), data.size()});
+}
+
 void PrintWhatIsEmbedded(const record::McapReader& in) {
   std::set<std::string> schemas;
   for (const auto& [id, schema] : in.schemas()) schemas.insert(schema.name + " (" + schema.encoding + ")");
   for (const auto& attachment : in.attachments()) {
+    if (const auto change = OverrideIn(in, attachment)) {
+      fmt::print("embedded  {}  {}\n", attachment.name, *change);
+      continue;
+    }
     fmt::print("embedded  {}  {}, {}\n", attachment.name, Size(attachment.data_bytes), attachment.media_type);
   }
   for (const std::string& schema : schemas) fmt::print("embedded  {}\n", schema);

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "common/runtime/replay/splice.hpp"
 #include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
@@ -18,11 +18,23 @@
 #include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/run/operator.hpp"
+#include "launch/rodeira/whole_steps.hpp"
 
 namespace rodeira::cli {
 namespace {
 
-using lockstep::Step;
+// With the option that made it wrong: a branch's changes are said by --branch, as they were typed.
+base::Error WithBranchOption(const base::Error& error, const launch::Overrides& typed, const launch::Overrides& read) {
+  std::string place = error.context, message = error.message;
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const std::string set = fmt::format("--set {}={}", read[i].first, read[i].second);
+    for (std::string* text : {&place, &message}) {
+      if (const auto at = text->find(set); at != std::string::npos)
+        text->replace(at, set.size(), fmt::format("--branch {}={}", typed[i].first, typed[i].second));
+    }
+  }
+  return error.WithMessage(message).WithContext(place);
+}
 
 // `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
 base::Result<BranchSpec> SpecOf(const ReplayOptions& options, bool& needs_graphics) {
@@ -36,19 +48,19 @@ base::Result<BranchSpec> SpecOf(const ReplayOptions& options, bool& needs_graphi
   if (auto status = replay::CheckNewRecording(options.record); !status) return status.error();
   const auto parent = replay::RecordedRun::Open(options.file);
   if (!parent) return parent.error();
-  const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());
-  const auto steps = [&](double seconds) { return static_cast<Step>(std::llround(seconds * steps_a_second)); };
-  if (const double from = *options.from_s * steps_a_second;
-      std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
-    return base::WrongInput("replay.wrong_branch_time",
-                            fmt::format("--from {} s was found; a multiple of the base step of {} s was expected",
-                                        *options.from_s, 1.0 / steps_a_second),
-                            options.file);
-  }
+  const auto steps = [&](double seconds, const char* option) {
+    return WholeSteps(seconds, parent.value().roster().base_step_ns(), option, options.file);
+  };
+  const auto from = steps(*options.from_s, "--from");
+  if (!from) return base::WrongInput("replay.wrong_branch_time", from.error().message, options.file);
   BranchSpec spec;
   spec.parent = options.file;
-  spec.at = steps(*options.from_s);
-  if (options.for_s) spec.last_step = spec.at + steps(*options.for_s);
+  spec.at = from.value();
+  if (options.for_s) {
+    const auto duration = steps(*options.for_s, "--for");
+    if (!duration) return duration.error();
+    spec.last_step = spec.at + duration.value();
+  }
   const auto named = WithNamedInputs(options.changes, parent.value().launch().path(), "--branch");
   if (!named) return named.error();
   for (const auto& [key, value] : named.value()) spec.changes.emplace_back(key, WithFilesFromHere(value));
@@ -59,7 +71,7 @@ base::Result<BranchSpec> SpecOf(const ReplayOptions& options, bool& needs_graphi
   spec.stop_requested = Interrupted;
   spec.with_view = options.view;
   const auto persons = DrivenLive(spec);
-  if (!persons) return persons.error();
+  if (!persons) return WithBranchOption(persons.error(), options.changes, spec.changes);
   const auto pace =
       launch::ParsePace(options.pace.value_or(options.view || !persons.value().names.empty() ? "real" : "max"));
   if (!pace) return pace.error();
@@ -97,7 +109,8 @@ int MakeBranch(const ReplayOptions& options) {
   }
   const auto outcome = Branch(spec.value());
   run_operator.reset();  // the terminal is a terminal again
-  if (!outcome) return base::PrintError("rodeira", outcome.error());
+  if (!outcome)
+    return base::PrintError("rodeira", WithBranchOption(outcome.error(), options.changes, spec.value().changes));
   if (outcome.value().difference) {
     const int status = base::PrintError("rodeira", base::Failed("replay.different",
                                                                 "the parent could not be repeated up to the branch; " +

@@ -31,6 +31,7 @@
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "launch/rodeira/run/run_meta.hpp"
 #include "launch/rodeira/run/run_network.hpp"
+#include "launch/rodeira/whole_steps.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -122,6 +123,11 @@ int Run(const RunOptions& given) {
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (!launch) return base::PrintError("rodeira", launch.error());
+  if (options.duration_s) {
+    const auto steps =
+        WholeSteps(*options.duration_s, launch.value().roster().base_step_ns(), "--for", options.launch_file);
+    if (!steps) return base::PrintError("rodeira", steps.error());
+  }
   if (auto status = launch.value().CheckRecovery(); !status && !options.in_process)
     return base::PrintError("rodeira", status.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();

@@ -46,6 +46,13 @@ TEST_F(NamedInputs, AnUnknownNameIsRefusedWithTheNearest) {
   EXPECT_EQ(refused.error().exit_status(), 2);
 }
 
+// A node without a vehicle has no such key, which its reader says.
+TEST_F(NamedInputs, TheVehicleOfANodeWithoutOneIsNoName) {
+  (void)own_.Write("launch/demo.yaml", "rodeira: launch/1\nnodes: {ego: {kind: vehicle}, cars: {kind: traffic}}\n");
+  EXPECT_EQ(Value("nodes.cars.config.vehicle", "4"), "4");
+  EXPECT_EQ(Value("nodes.ego.config.vehicle", "kart"), Shared("configs/vehicles/kart.yaml"));
+}
+
 TEST_F(NamedInputs, EverythingElseStays) {
   for (const char* value : {"beside.yaml", "../worlds/none.yaml", "/nowhere/town.yaml", "~", "\"town\"", ""})
     EXPECT_EQ(Value("world", value), value);

@@ -181,8 +181,8 @@ TEST(Config, AnOverrideByNothingTakesAKeyOut) {
   EXPECT_TRUE(file.Finish().ok());
 }
 
-// What is wrong in it stands in no line of the file.
-TEST(Config, AnOverrideHasNoLine) {
+// What is wrong in it stands in no line of the file: the option said it.
+TEST(Config, WhatAnOverrideSaysWrongIsTheOptions) {
   File file = Parsed("a: 1\nb: {c: 2}\n");
   ASSERT_TRUE(file.Override("b", "{c: 3, list: [1, x], inner: {odd: 1}}").ok());
   (void)file.root().Number("a");
@@ -192,7 +192,38 @@ TEST(Config, AnOverrideHasNoLine) {
   (void)b.Child("inner").Number("even", {}, 1.0);
   const auto problems = file.Problems();
   ASSERT_EQ(problems.size(), 2u);
-  for (const base::Error& problem : problems) EXPECT_EQ(problem.context, "folder/car.yaml") << problem.Text();
+  for (const base::Error& problem : problems)
+    EXPECT_EQ(problem.context, "--set b={c: 3, list: [1, x], inner: {odd: 1}}") << problem.Text();
+  EXPECT_EQ(b.Child("inner").Place("odd"), problems.front().context);
+}
+
+// A value, a key that it makes, a key that it takes out, and the last of two; what the file says keeps its line.
+TEST(Config, EachProblemIsAtTheOptionOrTheLineThatMadeIt) {
+  const auto places = [](const std::vector<std::pair<std::string, std::string>>& overrides) {
+    File file = Parsed("seed: 1\nrun: {name: a, pace: 1}\nother: 2\n");
+    for (const auto& [key, value] : overrides) EXPECT_TRUE(file.Override(key, value).ok());
+    const Map root = file.root(), run = root.Child("run");
+    (void)root.Integer("seed", 0, 9);
+    (void)run.Text("name");
+    (void)run.Number("pace", {0.0, 2.0});
+    (void)root.Number("other", {0.0, 1.0});
+    (void)root.OptionalChild("limits").Number("step_s", {}, 1.0);
+    std::vector<std::string> found;
+    for (const base::Error& problem : file.Problems()) found.push_back(problem.context);
+    return found;
+  };
+  using Places = std::vector<std::string>;
+  const std::string line = "folder/car.yaml:3";
+  EXPECT_EQ(places({}), Places{line});
+  EXPECT_EQ(places({{"seed", "abc"}}), (Places{"--set seed=abc", line}));
+  EXPECT_EQ(places({{"seed", "2"}, {"seed", "12"}}), (Places{"--set seed=12", line}));
+  EXPECT_EQ(places({{"run.pace", "[3]"}}), (Places{"--set run.pace=[3]", line}));
+  EXPECT_EQ(places({{"run.name", "~"}}), (Places{"--set run.name=~", line}));
+  EXPECT_EQ(places({{"run", "{name: b, pace: 3}"}}), (Places{"--set run={name: b, pace: 3}", line}));
+  EXPECT_EQ(places({{"limits.step_s", "x"}}), (Places{"--set limits.step_s=x", line}));
+  EXPECT_EQ(places({{"lmits.step_s", "1"}}), (Places{"--set lmits.step_s=1", line}));
+  EXPECT_EQ(places({{"run.nme", "1"}}), (Places{"--set run.nme=1", line}));
+  EXPECT_EQ(places({{"othre", "1"}}), (Places{"--set othre=1", line}));
 }
 
 TEST(Config, OverridesReplaceAndAdd) {

@@ -103,10 +103,11 @@ TEST(Launch, TransportIsAWordOrAMapping) {
   settings.kind = Transport::kUdp;
   EXPECT_EQ(TransportText(of(TransportText(settings).c_str())), TransportText(settings));
   EXPECT_EQ(Refusal(kDrive, {{"transport", "{observers: upd}"}}),
-            "dir/drive.yaml: 'transport.observers' is 'upd'; did you mean 'udp'?");
-  EXPECT_EQ(Refusal(kDrive, {{"transport", "{kind: udp, segment_kib: 1024}"}}),
-            "dir/drive.yaml: unknown key 'transport.segment_kib'; known are kind, observers");
-  EXPECT_EQ(Refusal(kDrive, {{"transport", "upd"}}), "dir/drive.yaml: 'transport' is 'upd'; did you mean 'udp'?");
+            "--set transport={observers: upd}: 'transport.observers' is 'upd'; did you mean 'udp'?");
+  EXPECT_EQ(
+      Refusal(kDrive, {{"transport", "{kind: udp, segment_kib: 1024}"}}),
+      "--set transport={kind: udp, segment_kib: 1024}: unknown key 'transport.segment_kib'; known are kind, observers");
+  EXPECT_EQ(Refusal(kDrive, {{"transport", "upd"}}), "--set transport=upd: 'transport' is 'upd'; did you mean 'udp'?");
 }
 
 // A topic that is published on request has a source only where the launch file names it; the recorder then takes it.
@@ -145,7 +146,8 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
       IsError("launch.unknown_node", "dir/drive.yaml: … node 'ego', input 'rodeira/controls': … 'drivr' … 'driver'"));
   EXPECT_EQ(Refusal(text + "sed: 4\n"), "dir/drive.yaml:10: unknown key 'sed'; did you mean 'seed'?");
   EXPECT_EQ(Refusal(text, {{"nodes.traffic.period_s", "0.0105"}}),
-            "dir/drive.yaml:8: 'period_s' is 0.0105 s; a multiple of the base step (0.001 s) was expected");
+            "--set nodes.traffic.period_s=0.0105: 'period_s' is 0.0105 s; a multiple of the base step (0.001 s) was "
+            "expected");
   EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"),
             "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
   EXPECT_THAT(ErrorOf("rodeira: launch/1\n"), IsError("config.missing_key", "dir/drive.yaml:1: … 'nodes'"));
@@ -156,7 +158,21 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(Refusal(text + "pace: -1\n"),
             "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
   EXPECT_THAT(ErrorOf(text, {{"base_step_s", "fast"}}),
-              IsError("config.wrong_type", "dir/drive.yaml: … 'base_step_s' … 'fast'"));
+              IsError("config.wrong_type", "--set base_step_s=fast: … 'base_step_s' … 'fast'"));
+}
+
+// A key of a node's own that is said at the top is told where it stands.
+TEST(Launch, AnOverrideAtTheTopIsRefusedWithTheNodeThatHasTheKey) {
+  const char* text =
+      "rodeira: launch/1\nnodes:\n  traffic: {kind: traffic, config: {vehicles: 3}}\n"
+      "  ego: {kind: vehicle, config: {vehicle: a.yaml}}\n  driver: {kind: input}\n";
+  EXPECT_THAT(ErrorOf(text, {{"vehicles", "4"}}),
+              IsError("config.unknown_key", "--set vehicles=4: … 'nodes.traffic.config.vehicles'"));
+  EXPECT_THAT(ErrorOf(text, {{"vehicle", "prototype"}}),
+              IsError("config.wrong_type",
+                      "--set vehicle=prototype: … mapping … 'nodes.ego.config.vehicle' … 'vehicle.model'"));
+  EXPECT_THAT(ErrorOf(text, {{"wrld", "a.yaml"}}), IsError("config.unknown_key", "--set wrld=a.yaml: … 'world'"));
+  EXPECT_TRUE(Launch::Parse(text, "a.yaml", {{"vehicle", "{model: ode}"}}).ok());
 }
 
 // A misspelt node is not a new one without a kind.

@@ -46,7 +46,7 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
       Branch({file, 500, {{"nodes.ego.config.vehicel", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()});
   ASSERT_FALSE(wrong_change.ok());
   EXPECT_THAT(wrong_change.error().Text(), ::testing::StartsWith(file + ": "));
-  EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": first_drive.yaml: unknown key 'nodes.ego.config.vehicel'"));
+  EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": unknown key 'nodes.ego.config.vehicel'"));
 }
 
 // What was repaired in a world is said again where its nodes are computed again, with the file's recorded name.
