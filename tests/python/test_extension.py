@@ -76,8 +76,15 @@ class MeasuresOfRecordings(unittest.TestCase):
             with self.assertRaises(rodeira.Error) as raised:
                 rodeira.measures(self.path, **words)
             self.assertIn(sentence, str(raised.exception))
-        with self.assertRaises(rodeira.Error):
-            rodeira.measures(self.path.with_name("none.mcap"))
+        one = rodeira.measures(self.path, "speed_max_mps", intervals="a=0..0.5")
+        self.assertEqual((one.names, [row.interval for row in one]), (("speed_max_mps",), ["a"]))
+        for path in (self.path.with_name("none.mcap"), self.path.with_name(f"{self.path.stem}z.mcap"),
+                     self.path.parent):
+            with self.assertRaises(rodeira.Error) as program:
+                rodeira.measures(path)
+            with self.assertRaises(rodeira.Error) as package:
+                rodeira.open(path)
+            self.assertEqual(str(program.exception), str(package.exception))
 
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "the Python package pandas is not installed")
     def test_frames(self):

@@ -15,7 +15,9 @@ struct Kind {
 };
 
 constexpr std::array<Kind, 20> kKinds{{
-    {"recording", "a recording", "watch it: rodeira replay {} --view; go on from it: rodeira replay {} --branch"},
+    {"recording", "a recording",
+     "watch it: rodeira replay {} --view; go on from it: rodeira replay {} --from SECONDS --branch KEY=VALUE --record "
+     "NEW.mcap"},
     {"launch", "a launch file", "run it: rodeira run {}"},
     {"world", "a world", "rodeira world info {}; run in it: rodeira run LAUNCH.yaml --set world={}"},
     {"vehicle", "a vehicle",

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/core/base/nearest_file.hpp"
 #include "common/core/base/open_error.hpp"
 
 namespace rodeira::record {
@@ -68,7 +69,10 @@ base::Result<base::Bytes> Source::Read(std::uint64_t offset, std::uint64_t size)
 
 base::Result<std::unique_ptr<Source>> OpenFileSource(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return base::OpenError("the recording cannot be opened", errno, path.string());
+  const int problem = errno;
+  if (file < 0 && (problem == ENOENT || problem == ENOTDIR))
+    return base::WrongInput("file.not_found", base::NoSuchFile(path), path.string());
+  if (file < 0) return base::OpenError("the recording cannot be opened", problem, path.string());
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(file);

@@ -45,9 +45,10 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     if (!(between > 0.0)) continue;  // told above
     const double grade = (here.z_m - before.z_m) / between;
     if (!(std::fabs(grade) <= kSteepestGrade)) {
-      points.Problem(i, "config.out_of_range",
-                     fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected", grade,
-                                 kSteepestGrade));
+      points.Problem(
+          i, "config.out_of_range",
+          fmt::format("the grade before the point of 'vertical' at s_m: {} is {:.3g}; at most {} was expected",
+                      here.s_m, grade, kSteepestGrade));
     }
     if (0.5 * (before.parabola_m + here.parabola_m) > between) {
       points.Problem(i, "config.wrong_order",

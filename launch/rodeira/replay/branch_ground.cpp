@@ -95,10 +95,13 @@ base::Status CheckGroundOfBranch(const replay::RecordedRun& parent, const replay
   if (base::Hex(world.value()->content_hash()) == parent.world_hash()) return {};
   const auto before = EmbeddedWorld(parent);
   if (!before) return before.error();
+  const bool has_roads = before.value()->network() != nullptr;
   const auto refused = [&](const std::string& why) {
-    return base::WrongInput("replay.wrong_world",
-                            fmt::format("{}; a branch needs a world with the parent's roads", why),
-                            changed.launch().world().string());
+    return base::WrongInput(
+        "replay.wrong_world",
+        fmt::format("{}; a branch needs {}", why,
+                    has_roads ? "a world with the parent's roads" : "ground of the parent's height below each vehicle"),
+        changed.launch().world().string());
   };
   const auto vehicles = VehiclesAt(parent, at);
   if (!vehicles) return vehicles.error();

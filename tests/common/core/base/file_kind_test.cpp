@@ -18,8 +18,8 @@ using namespace std::string_literals;
 
 TEST(FileKind, ARecordingIsKnownByItsMark) {
   EXPECT_EQ(AboutFile("\x89MCAP0\r\n"s + "\0\1"s, "a/p07.mcap"),
-            "a recording; watch it: rodeira replay a/p07.mcap --view; go on from it: rodeira replay a/p07.mcap "
-            "--branch");
+            "a recording; watch it: rodeira replay a/p07.mcap --view; go on from it: rodeira replay a/p07.mcap --from "
+            "SECONDS --branch KEY=VALUE --record NEW.mcap");
 }
 
 TEST(FileKind, EachFileOfTheSourceTreeIsKnown) {

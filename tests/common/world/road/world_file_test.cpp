@@ -126,7 +126,7 @@ TEST(WorldFile, EveryKindOfMistakeGetsItsSentence) {
        "the first and the last point of 'vertical' have no parabola"},
       {"z_m: 105, parabola_m: 60", "z_m: 105, parabola_m: 150", "overlap"},
       {"s_m: 90, z_m: 105", "s_m: 90, z_m: 160",
-       "the grade before this point of 'vertical' is 0.667; at most 0.5 was expected"},
+       "the grade before the point of 'vertical' at s_m: 90 is 0.667; at most 0.5 was expected"},
       {"{id: 1, width_m: 3,", "{id: 0, width_m: 3,", "a lane's 'id' is 0"},
       {"{id: 1, width_m: 3,", "{id: -1, width_m: 3,", "sample.yaml:40: lane -1 appears twice"},
       {"{id: 1, width_m: 3,", "{id: 3, width_m: 3,", "there is a lane 3 but no lane 2 between it and the axis"},
