@@ -140,31 +140,33 @@ constexpr std::array kRules = std::to_array<std::string_view>({
     "xml.attribute",
 });
 
-// The rule's id, with a 0 at its end. `{}` and the dot before it are left out.
-template <std::size_t kIndex>
-constexpr auto MakeText() {
-  constexpr std::string_view kScope = "opendrive.";
-  std::array<char, kScope.size() + kRules[kIndex].size() + 1> text{};
+// The rule's id. `{}` and the dot before it are left out.
+struct Text {
+  std::array<char, 80> letters{};  // zeros at the end
+};
+constexpr Text TextOf(std::string_view rule) {
+  Text text;
   std::size_t size = 0;
-  for (const char c : kScope) text[size++] = c;
-  const std::string_view rule = kRules[kIndex];
+  for (const char c : std::string_view("opendrive.")) text.letters[size++] = c;
   for (std::size_t i = 0; i < rule.size(); ++i) {
     if (rule.substr(i).starts_with(".{}")) {
       i += 2;
       continue;
     }
     const char c = rule[i];
-    text[size++] = c == '.' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    text.letters[size++] = c == '.' ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   }
   return text;
 }
-
-template <std::size_t kIndex>
-constexpr auto kText = MakeText<kIndex>();
+constexpr auto kTexts = [] {
+  std::array<Text, kRules.size()> texts;
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = TextOf(kRules[i]);
+  return texts;
+}();
 
 template <std::size_t... kIndices>
 consteval std::array<base::ErrorId, sizeof...(kIndices)> MakeIds(std::index_sequence<kIndices...> /*all*/) {
-  return {base::ErrorId(kText<kIndices>.data())...};
+  return {base::ErrorId(kTexts[kIndices].letters.data())...};
 }
 
 constexpr auto kIds = MakeIds(std::make_index_sequence<kRules.size()>());
