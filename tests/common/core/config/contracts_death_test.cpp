@@ -29,6 +29,8 @@ TEST(ContractsDeathTest, ADefaultIsAllowedItself) {
   EXPECT_DEATH((void)IntegerKey("lanes", 1, 2, 3, "Lanes."), "default_value >= low");
   EXPECT_DEATH((void)WordKey("side", {"left", "right"}, "up", "Side."), "find\\(words, default_value\\)");
   EXPECT_DEATH((void)Counted(2, 1, ListKey("axes", NumberItem({}), "Axes.")), "low <= high");
+  EXPECT_DEATH((void)Renamed("wide_m", Required(NumberKey("width_m", {}, 1.0, "Width."))),
+               "key.type == ValueType::kNumber && std::holds_alternative<double>");
   EXPECT_DEATH((void)WithDefaultNote("the width", NumberKey("width_m", {}, 1.0, "Width.")), "!key.required");
 }
 

@@ -57,5 +57,12 @@ TEST(Ring, LetsGoOfWhatIsTakenOut) {
   EXPECT_EQ(kept.use_count(), 1);
 }
 
+TEST(RingDeathTest, NothingIsTakenFromAnEmptyOneAndNoneGetsShorter) {
+  Ring<int> ring;
+  EXPECT_DEATH(ring.pop_front(), "size_ > 0");
+  ring.push_back(1);
+  EXPECT_DEATH(ring.resize(0), "size >= size_");
+}
+
 }  // namespace
 }  // namespace rodeira::lockstep

@@ -221,6 +221,7 @@ TEST(StaticObjects, ARailFollowsItsBendWithoutAGap) {
   }
   EXPECT_NEAR(chords, length * 55.0 / 50.0, 0.1);
   for (const Mesh& mesh : DrawAll(things, 1)) {
+    ASSERT_FALSE(mesh.positions.empty());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vector3d p = mesh.PositionW(i);
       EXPECT_NEAR((p - middle).head<2>().norm(), 55.0, 0.15);
