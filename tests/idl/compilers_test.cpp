@@ -51,6 +51,7 @@ class Compilers : public ::testing::Test {
 
 // XTypes' default is appendable, this compiler's is final: a marked type is the same to every reader.
 TEST_F(Compilers, EveryFileMeansTheSameWhateverTheDefaultExtensibility) {
+  ASSERT_FALSE(files_.empty());
   for (const fs::path& file : files_) {
     EXPECT_TRUE(Compile(file, "final") == Compile(file, "appendable")) << file;
   }

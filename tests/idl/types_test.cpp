@@ -233,6 +233,7 @@ TEST(Generator, EachHasAFolderOfItsOwnForPreprocessedTexts) {
   }
   ASSERT_FALSE(folders.empty());
   for (const std::string& folder : folders) EXPECT_EQ(folders.count(folder), 1u) << folder;
+  ASSERT_FALSE(IdlTexts().empty());
   for (const IdlText& text : IdlTexts()) {
     const auto preprocessed = base::ReadText(fmt::format("{}/idl/preprocessed/{}.idl.cc", BinaryDir(), text.subject));
     EXPECT_TRUE(preprocessed.ok() && !preprocessed.value().empty()) << text.subject;

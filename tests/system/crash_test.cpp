@@ -72,6 +72,7 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   const double momentum = model.value()->dimensions().mass_kg * story.speed_before_mps;
   EXPECT_LT(story.impulse_x_Ns, -0.98 * momentum);
   const auto states = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState);
+  ASSERT_FALSE(states.empty());
   for (const auto& state : states)
     ASSERT_LT(state.position_w_m().x(), 294.0) << "it is in the house at step " << state.header().step();
   const Ended verified = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});

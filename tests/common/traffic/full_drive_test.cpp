@@ -148,6 +148,7 @@ TEST(FullDrive, SlowOnesAreOvertaken) {
   }
   EXPECT_TRUE(watch.touches.empty());
   EXPECT_GE(watch.passes, 2);
+  EXPECT_FALSE(watch.crossings.empty());
   for (const RingWatch::Crossing& c : watch.crossings) EXPECT_GE(c.spare_s, 2.0) << "car " << c.id;
 }
 

@@ -106,8 +106,10 @@ TEST(LaneModes, NoVehicleBeginsOnALaneWithoutAnEntry) {
 TEST(LaneModes, VehiclesAreGoneAtTheEndOfAnEndLaneThatGoesOn) {
   const auto network = NetworkWith("crossing", {{9, LaneMode::kEnd}});
   const lanes::Graph graph(*network);
+  std::set<std::string> roads;
   for (const lanes::Track& track : graph.tracks()) {
     const std::string& road = network->roads()[track.lane.road].id();
+    roads.insert(road);
     if (road == "9") {
       EXPECT_TRUE(track.next.empty());
     }
@@ -115,6 +117,7 @@ TEST(LaneModes, VehiclesAreGoneAtTheEndOfAnEndLaneThatGoesOn) {
       EXPECT_EQ(track.before.size(), 2u);  // from 16 and 19, and no more from 9
     }
   }
+  EXPECT_TRUE(roads.contains("9") && roads.contains("4"));
   const Trips trips = TripsOn(network, Vehicles(25), 600.0);
   EXPECT_EQ(trips.collisions, 0) << trips.told;
   EXPECT_GT(trips.ended.at("9"), 5);

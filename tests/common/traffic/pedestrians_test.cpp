@@ -325,6 +325,7 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
       "type=\"0\"/><userData code=\"rodeira:times\" value=\"60 5 25 3 1\"/></controller>"));
   TrafficModel model = TrafficModel::Make(WithPeople(10, 300.0), network, {}).value();
   const lanes::FootCrossing& crossing = model.people()->crossings()[0];
+  ASSERT_FALSE(crossing.passes.empty());
   for (const lanes::FootPass& pass : crossing.passes) EXPECT_EQ(pass.light, 0);
   std::uint32_t before = 0, stood_at_green = 0;
   PeopleWatcher watcher;

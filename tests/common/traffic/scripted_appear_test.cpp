@@ -127,6 +127,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   EXPECT_EQ(model.on_road(), 3u);
   EXPECT_EQ(model.agent(1).speed_mps, 0.0);
   Step(model, 1500);  // and all drive on
+  EXPECT_EQ(model.poses().size(), 3U);
   for (const AgentPose& pose : model.poses()) EXPECT_GT(pose.speed_mps, 10.0) << pose.id;
 }
 

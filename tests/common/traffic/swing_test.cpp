@@ -179,6 +179,7 @@ TEST(Swing, ACarThatLeavesABendGainsSpeedAsDriversDo) {
 
 // Straight roads are as wide as before, and one that keeps to its line, or knows no zones, has none.
 TEST(Swing, IsNothingOnStraightRoadsNorOfPlanarCars) {
+  int compared = 0;
   for (const std::string& name : lanes::MapNames()) {
     const auto network = lanes::MapNetwork(name);
     const lanes::Graph graph(*network);
@@ -197,8 +198,10 @@ TEST(Swing, IsNothingOnStraightRoadsNorOfPlanarCars) {
       if (nodes[middle].d_m < 20.0 || graph[track].length_m() - nodes[middle].d_m < 20.0) continue;
       EXPECT_LE(std::max(swings[track][middle].left_m, swings[track][middle].right_m), 0.5 * car.width_m + 1e-3)
           << name << " " << track;
+      ++compared;
     }
   }
+  EXPECT_GT(compared, 0);
 }
 
 // A circle of 10.4 m radius on a lane of 3.5 m: a bus's tyres are 2.5 / 2 + 5.3² / (4 R) from the line; nothing of

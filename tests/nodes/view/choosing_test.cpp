@@ -155,6 +155,7 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
 // With the keys of the project's keyboard file below it, a window of 720 pixels has room for 34 lines.
 TEST(WindowHelp, HasEveryKeyOnceAndRoomInAWindow) {
   const std::string help = WindowHelp(kLeftButton);
+  ASSERT_FALSE(input_devices::WindowKeys().empty());
   for (const input_devices::WindowKey& key : input_devices::WindowKeys()) {
     int lines = 0;
     std::istringstream all(help);

@@ -147,6 +147,7 @@ TEST_F(MenuTest, ItComesAndGoesByItsKeyAndLeavesThePictureAsItWas) {
 TEST_F(MenuTest, ACameraIsChosenByItsName) {
   Open();
   Keep("menu.png");
+  ASSERT_FALSE(scene::CameraNames().empty());
   for (std::size_t i = 0; i < scene::CameraNames().size(); ++i) {
     ASSERT_TRUE(Click(std::string(scene::CameraNames()[i])));
     EXPECT_TRUE(screen_->TakeKey(SDLK_F1, true));

@@ -117,6 +117,7 @@ TEST(Quality, AWindowOfTheProcessorIsLowAndFilesAreMedium) {
   const auto own = Surface::Open(SurfaceKind::kOffscreen, 64, 64, "test");
   ASSERT_TRUE(own.ok());
   EXPECT_EQ(own.value()->quality(), Quality::kMedium);
+  ASSERT_FALSE(QualityNames().empty());
   for (const std::string_view name : QualityNames())
     EXPECT_EQ(QualityNames()[static_cast<std::size_t>(*QualityOf(name))], name);
   EXPECT_FALSE(QualityOf("best"));

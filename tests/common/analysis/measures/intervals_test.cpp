@@ -151,6 +151,7 @@ TEST_F(MeasuresFile, TheOneOfTheHowToIsRead) {
 // Every measure says what it is, with options within their own bounds, under one name.
 TEST(Catalogue, EveryMeasureIsExplained) {
   std::set<std::string> names;
+  ASSERT_FALSE(Catalogue().empty());
   for (const MeasureInfo& info : Catalogue()) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
     for (const char* text : {info.family, info.definition, info.equation, info.traps, info.source})

@@ -143,11 +143,14 @@ TEST(Offset, OfARegularPolygonIsARegularPolygon) {
   for (const double left : {5.0, -20.0, 49.0}) {  // counter-clockwise: left is inward
     const OffsetLine offset = Offset(ring, left);
     EXPECT_TRUE(offset.faults.empty());
+    ASSERT_EQ(offset.line.points_W.size(), ring.points_W.size());
     for (const Eigen::Vector3d& p : offset.line.points_W) {
       EXPECT_NEAR(p.head<2>().norm(), 50.0 - left / std::cos(kPi / corners), 1e-12);
       EXPECT_EQ(p.z(), 3.0);
     }
-    for (const Eigen::Vector3d& p : Offset(ring, left, Mitre::kKeepLength).line.points_W) {
+    const OffsetLine kept = Offset(ring, left, Mitre::kKeepLength);
+    ASSERT_EQ(kept.line.points_W.size(), ring.points_W.size());
+    for (const Eigen::Vector3d& p : kept.line.points_W) {
       EXPECT_NEAR(p.head<2>().norm(), 50.0 - left, 1e-12);
     }
   }

@@ -56,6 +56,7 @@ TEST(Noding, NothingCrossesAfterwards) {
       lines.push_back({{draw(0), draw(1)}, {draw(2), draw(3)}, {draw(4), draw(5)}});
     }
     const auto segments = Node(lines);
+    ASSERT_GE(segments.size(), 60U);
     const auto side = [](std::int64_t turn) { return (turn > 0) - (turn < 0); };
     for (std::size_t i = 0; i < segments.size(); ++i) {
       for (std::size_t j = i + 1; j < segments.size(); ++j) {

@@ -106,6 +106,7 @@ TEST(Triangulation, NodedLinesBecomeSides) {
       lines.push_back(line);
     }
     const std::vector<GridSegment> segments = Node(lines);
+    ASSERT_FALSE(segments.empty());
     Triangulation t(kSize);
     for (const GridSegment& segment : segments) {
       t.Insert(segment.a);
@@ -129,9 +130,11 @@ TEST(Triangulation, NodedLinesBecomeSides) {
 TEST(Triangulation, WhereAPointIsSoughtFromChangesNothing) {
   const std::vector<GridLine> lines = {{{1000, 1000}, {kSize - 1000, 900}, {kSize - 2000, kSize - 500}, {1000, 1000}},
                                        {{0, kSize / 2}, {kSize, kSize / 2}}};
+  const std::vector<GridSegment> segments = Node(lines);
+  ASSERT_GE(segments.size(), 5U);
   Triangulation plain(kSize), sought(kSize);
   for (Triangulation* t : {&plain, &sought}) {
-    for (const GridSegment& segment : Node(lines)) {
+    for (const GridSegment& segment : segments) {
       const std::uint32_t a = t->Insert(segment.a), b = t->Insert(segment.b);
       ASSERT_TRUE(t->Fix(a, b));
     }

@@ -58,6 +58,7 @@ TEST(Layout, OfTheProjectsTopics) {
     const auto* info = idl::FindTopic(topic);
     return Of(idl::IdlTextOf(info->subject), std::string(info->type));
   };
+  ASSERT_FALSE(idl::Topics().empty());
   for (const idl::TopicInfo& topic : idl::Topics())
     EXPECT_EQ(of(topic.topic).has_header, topic.lockstep) << topic.topic;
   EXPECT_EQ(of(idl::topics::kTrafficState).rows, "agents");

@@ -62,6 +62,7 @@ TEST(Typed, EveryCutIsRefused) {
     const TypePtr type = TypeOf(name);
     ASSERT_NE(type, nullptr);
     const base::Bytes whole = idl::Encode(Filled<Message>(7));
+    ASSERT_FALSE(whole.empty());
     for (std::size_t size = 0; size < whole.size(); ++size) {
       const auto cut = std::span(whole).first(size);
       const auto found = Flatten(*type, cut);

@@ -45,6 +45,7 @@ TEST_P(Damage, EveryTruncationGivesExactlyTheCompleteChunks) {
   const auto ends = Ends();
   std::uint64_t summary_start = 0;
   std::memcpy(&summary_start, bytes_.data() + bytes_.size() - 28, sizeof summary_start);
+  ASSERT_GT(bytes_.size(), kHeaderEnd);
   for (std::size_t size = 0; size < bytes_.size(); ++size) {
     auto reader =
         McapReader::OpenBytes(base::Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size)));
@@ -87,6 +88,7 @@ TEST_P(Damage, NoSingleByteGivesAWrongMessageInSilence) {
     std::ranges::sort(copy);
     return copy;
   }();
+  ASSERT_GT(bytes_.size(), kHeaderEnd);
   for (std::size_t at = 0; at < bytes_.size(); ++at) {
     for (const int flip : {0x01, 0x80, 0xFF, 0x20, static_cast<int>(bytes_[at])}) {  // the last one gives zero
       if (flip == 0) continue;

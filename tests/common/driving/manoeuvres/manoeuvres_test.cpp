@@ -328,6 +328,7 @@ class EveryCar : public ::testing::TestWithParam<dynamics::ModelCase> {
 
 TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
   auto first = Make(), second = Make();
+  ASSERT_FALSE(Manoeuvres().empty());
   for (const Manoeuvre& manoeuvre : Manoeuvres()) {
     SCOPED_TRACE(manoeuvre.name);
     const Outcome a = Driven(Drive(manoeuvre, *first, Step_s()));

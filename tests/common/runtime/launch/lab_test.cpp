@@ -123,6 +123,7 @@ TEST(Agreement, IsOfWhatTheRunIsAndNotOfThePc) {
   };
   const base::Digest digest = of(kLaunch, {});
   const Lab lab = Lab::Parse(kLab, "rig.yaml").value();
+  ASSERT_FALSE(lab.hosts().empty());
   for (const LabHost& host : lab.hosts()) EXPECT_EQ(of(kLaunch, lab.For(host)), digest);
   EXPECT_EQ(of(kLaunch, {{"limits.start_s", "9"}, {"nodes.a.config.window", "never"}}), digest);
   EXPECT_NE(of(kLaunch, {{"seed", "2"}}), digest);

@@ -221,6 +221,7 @@ TEST(Law, StopEndsTheRunAtAGrantedStepForAllNodes) {
   const RunOutcome outcome = RunThreaded(roster, made.nodes, settings);
   ASSERT_TRUE(outcome.ok) << outcome.fault;
   ASSERT_GT(outcome.last_step, 0);
+  ASSERT_EQ(outcome.reports.size(), roster.nodes().size());
   for (const Report& report : outcome.reports) {
     EXPECT_GT(report.progress, outcome.last_step);
     EXPECT_LE(report.progress, outcome.last_step + roster.node(report.node).period);

@@ -103,6 +103,7 @@ TEST(Recovery, ANodeThatIsToldToEndEndsARunWithoutRestarts) {
     settings.deaths.safe = [&](NodeIndex) { return disk.safe(); };
     const RunOutcome outcome = RunShuffled(roster, nodes, settings, seed + 1);
     if (outcome.ok) {
+      RC_ASSERT(outcome.reports.size() == roster.nodes().size());
       for (const Report& report : outcome.reports) RC_ASSERT(report.phase == Phase::kFinished);
       return;
     }

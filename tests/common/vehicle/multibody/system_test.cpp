@@ -65,6 +65,7 @@ TEST(System, RestoredItGoesOnWithTheSameBits) {
     base::StateReader reader(snapshot.bytes());
     second.system->Restore(reader);
     ASSERT_TRUE(reader.Finish().ok());
+    ASSERT_FALSE(first.system->q().empty());
     for (int i = 0; i < 1000; ++i) {
       first.system->Step(step);
       second.system->Step(step);

@@ -51,6 +51,7 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
     const auto at = camera.Project(eye_B + p_E, 1280, 720);
     return at && at->x() >= 0.0 && at->x() < 1280.0 && at->y() >= 0.0 && at->y() < 720.0 ? at : std::nullopt;
   };
+  ASSERT_FALSE(CabinDials().empty());
   for (const CabinDial& dial : CabinDials()) {
     for (double share = 0.0; share <= 1.0; share += 0.25)
       EXPECT_TRUE(seen(NeedleEnd_E(dial, share * dial.dial.most))) << dial.dial.unit << share;
@@ -60,6 +61,7 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
   const auto road =
       camera.Project(car.p_WB_W + Eigen::Vector3d(9.0, 0.3, 0.0), 1280, 720);  // 9 m before the car's middle
   const Mesh dashboard = BuildDashboard(car.width_m, eye_B.y());
+  ASSERT_FALSE(dashboard.positions.empty());
   for (std::size_t i = 0; i < dashboard.positions.size(); ++i) {
     const auto at = camera.Project(eye_B + dashboard.PositionW(i), 1280, 720);
     EXPECT_TRUE(!at || at->y() > road->y()) << dashboard.PositionW(i).transpose();

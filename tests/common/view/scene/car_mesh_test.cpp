@@ -81,6 +81,7 @@ TEST(CarMesh, HasTheCarsMeasures) {
   bool painted = false;
   for (const Mesh& mesh : car.body) {
     for (const Eigen::Vector3f& p : mesh.positions) box.extend(p);
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
     for (const Eigen::Vector3f& n : mesh.normals) ASSERT_NEAR(n.norm(), 1.0F, 1e-5F);
     painted = painted || (mesh.material == Material::kCarPaint && mesh.colours[0] == Colour::Of(0x123456));
   }

@@ -60,6 +60,7 @@ TEST(FarPlane, CoversWhatTheSquaresLeaveOutOnce) {
           << column << " " << row;
     }
   }
+  ASSERT_FALSE(mesh.positions.empty());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Eigen::Vector3d p = mesh.PositionW(i);
     EXPECT_NEAR(p.z(), 2.0 + 0.01 * p.x() - 0.02 * p.y(), 0.002);

@@ -30,7 +30,9 @@ Place PlaceOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 TEST(Ground, IsClosed) {
   const auto world = OpenDriveWorld(BendUnderBridge());
   ASSERT_NE(world, nullptr);
-  for (const GroundTile& tile : BuildAll(*world)) {
+  const auto tiles = BuildAll(*world);
+  ASSERT_FALSE(tiles.empty());
+  for (const GroundTile& tile : tiles) {
     for (const GroundLevel& level : tile.levels) {
       std::map<std::pair<Place, Place>, int> sides;
       for (const Mesh& mesh : level.ground) {

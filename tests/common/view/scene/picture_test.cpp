@@ -83,6 +83,7 @@ TEST(Pictures, ARepeatedOneIsWholePicturesAwayFarFromTheOrigin) {
     ASSERT_FALSE(meshes.empty());
     for (const Mesh& mesh : meshes) {
       EXPECT_TRUE(mesh.repeats);
+      ASSERT_FALSE(mesh.positions.empty());
       for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         ExpectSame(mesh.on_face[i], mesh.PositionW(i).head<2>().cwiseQuotient(Eigen::Vector2d(64.0, 52.0)));
     }
@@ -181,6 +182,7 @@ TEST(Pictures, OverATerrainWithoutARectangleItCoversAllOfIt) {
   for (const TerrainTile& tile : scene.terrain) {
     for (const Mesh& mesh : tile.levels) {
       ASSERT_EQ(mesh.material, Material::kPicture);
+      ASSERT_FALSE(mesh.positions.empty());
       for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         EXPECT_NEAR(mesh.on_face[i].x(), (mesh.PositionW(i).x() + 50.0) / 200.0, 1e-6);
     }

@@ -91,6 +91,7 @@ TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
   EXPECT_EQ(places_of(3), (std::multiset<std::size_t>{}));
   const DrawnStaticObjects drawn = DrawStaticObjects(tile, key, 0);
   ASSERT_EQ(drawn.meshes.size(), 1U);
+  ASSERT_FALSE(drawn.meshes[0].positions.empty());
   for (std::size_t i = 0; i < drawn.meshes[0].positions.size(); ++i)
     EXPECT_GT(drawn.meshes[0].PositionW(i).y(), 100.0) << "the lamps alone";
 }

@@ -314,6 +314,7 @@ TEST(RoadPaint, OfARealFileLiesOnItsLanes) {
     if (paint.empty()) continue;
     ++things;
     for (const auto& [key, pieces] : paint) {
+      ASSERT_FALSE(pieces.empty());
       for (const PaintPiece& piece : pieces) {
         const Eigen::Vector3d middle = 0.25 * (piece.p_W[0] + piece.p_W[1] + piece.p_W[2] + piece.p_W[3]);
         const auto place = network.Locate(middle.x(), middle.y(), middle.z());

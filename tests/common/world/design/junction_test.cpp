@@ -221,11 +221,14 @@ TEST(Junction, HasLightsWithTheirTimes) {
       EXPECT_EQ(found, 1) << entry.signal_id;
     }
   }
+  int parts = 0;
   for (const network::Road& road : network.roads()) {
     if (road.id() != "main/1" && road.id() != "cross/1") continue;
+    ++parts;
     EXPECT_TRUE(std::all_of(road.spec().signals.begin(), road.spec().signals.end(),
                             [](const auto& signal) { return signal.dynamic; }));
   }
+  EXPECT_EQ(parts, 2);
   const auto told = [&](const std::string& phases) {
     std::string wrong = kRoads;
     wrong.replace(wrong.find(stop), stop.size(), "control: lights, lights: {phases: " + phases + "}}");

@@ -18,6 +18,7 @@ TEST(LaneCurve, IsTheMiddleOfTheLane) {
   for (const std::string& name : MapNames()) {
     const auto network = MapNetwork(name);
     const Graph graph(*network);
+    ASSERT_FALSE(graph.tracks().empty()) << name;
     for (const Track& track : graph.tracks()) {
       for (double d = 0.0; d < track.length_m(); d += 0.37) {
         if (track.curve.WidthAt(d) < 3.0) continue;
@@ -56,7 +57,9 @@ TEST(LaneCurve, GoesThroughAllOfItsNodes) {
   for (const std::string& name : MapNames()) {
     const auto network = MapNetwork(name);
     const Graph graph(*network);
+    ASSERT_FALSE(graph.tracks().empty()) << name;
     for (const Track& track : graph.tracks()) {
+      ASSERT_GE(track.curve.nodes().size(), 2U) << name;
       for (const Curve::Node& node : track.curve.nodes()) {
         const CurvePoint at = track.curve.At(node.d_m);
         EXPECT_LT((at.p_W - node.p_W).norm(), 2e-6) << name << " road " << track.lane.road << " d " << node.d_m;

@@ -83,6 +83,7 @@ TEST(Marking, DashesOfALineThatFoldsComeToAnEnd) {
       section.right = {lane};
       spec.sections = {section};
       const Road road(spec, *geometry::PlanAxis::Make({cubic}));
+      ASSERT_FALSE(MarkingsOf(road).empty());
       for (const Marking& marking : MarkingsOf(road)) {
         double before = marking.from_s_m;
         for (const Stroke& stroke : StrokesOf(road, marking)) {

@@ -40,6 +40,7 @@ TEST(OpenDrive, EveryRealFileLoads) {
     ASSERT_TRUE(import.ok()) << import.error().Text();
     for (const Finding& error : import.value().errors) ADD_FAILURE() << ToError(error, file).Text();
     // The lengths of the roads are those that the file says.
+    EXPECT_FALSE(import.value().network->roads().empty()) << file;
     for (const network::Road& road : import.value().network->roads())
       EXPECT_NEAR(road.length_m(), road.spec().length_m, 0.05) << file << " " << road.id();
   }

@@ -167,6 +167,7 @@ TEST(BuiltWorld, JunctionsConformToGroundAndRoads) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& corner : junction.outline_W)
     middle += corner / static_cast<double>(junction.outline_W.size());
+  ASSERT_GE(junction.outline_W.size(), 3U);
   for (std::size_t i = 0; i < junction.outline_W.size(); ++i) {
     const Eigen::Vector2d a = junction.outline_W[i], b = junction.outline_W[(i + 1) % junction.outline_W.size()];
     const Eigen::Vector2d along = (b - a).normalized(), out(along.y(), -along.x());

@@ -228,11 +228,14 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
   }
   EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.4g}</text>", steepest)));
   EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.4g}</text>", sharpest)));
+  int arcs = 0;
   for (const geometry::PlanPiece& piece : road.plan().pieces()) {
     if (piece.curvature_start_1pm != 0.0 && piece.curvature_start_1pm == piece.curvature_end_1pm) {
+      ++arcs;
       EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.0f}</text>", 1.0 / std::fabs(piece.curvature_start_1pm))));
     }
   }
+  EXPECT_GT(arcs, 0);
   const auto plane =
       World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
   EXPECT_TRUE(PlotProfiles(*plane.value()).empty());

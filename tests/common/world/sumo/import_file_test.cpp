@@ -219,6 +219,7 @@ TEST_F(ImportFileTest, LanesThatCarsMayNotUseAreNotDriven) {
         std::tuple("side", 0, true)})
     EXPECT_EQ(IsDriven(graph, edge, lane), driven) << edge << " " << lane;
   // A way from or to such a lane is none either.
+  ASSERT_FALSE(graph.tracks().empty());
   for (const lanes::Track& track : graph.tracks()) {
     const auto& lane = *network->Find(track.lane);
     EXPECT_TRUE(network::OpenToCars(lane)) << network->roads()[track.lane.road].spec().name;

@@ -45,6 +45,7 @@ TEST_P(OwnMap, ComesBackToTheByte) {
 TEST_P(OwnMap, LanesMeetAndNoneIsTooSharpForACar) {
   const auto map = LoadLaneMap(path_);
   ASSERT_TRUE(map.ok()) << map.error().Text();
+  ASSERT_FALSE(map.value().connections.empty());
   for (const MapConnection& connection : map.value().connections) {
     const LanePoint end = map.value().lanes[connection.from].shape.AtParameter(1.0);
     const LanePoint begin = map.value().lanes[connection.to].shape.AtParameter(0.0);
