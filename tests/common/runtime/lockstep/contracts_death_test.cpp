@@ -136,9 +136,11 @@ TEST(ContractsDeathTest, OnlyASinkBeginsWithoutASnapshot) {
 TEST(ContractsDeathTest, AnInboxIsOpenedWhenItsSamplesAreThere) {
   const Roster roster = TwoNodes();
   Mailbox mailbox(roster, 1);
-  EXPECT_DEATH((void)mailbox.Open(2), "sample != nullptr");
+  Inbox inbox;
+  EXPECT_DEATH(mailbox.Open(2, inbox), "sample != nullptr");
   ASSERT_TRUE(mailbox.Deliver(SampleOf(0)).ok());
-  EXPECT_EQ(mailbox.Open(2).ports().size(), 1U);
+  mailbox.Open(2, inbox);
+  EXPECT_EQ(inbox.ports().size(), 1U);
 }
 
 }  // namespace
