@@ -114,7 +114,8 @@ TEST(Lab, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(lab.Host("lefft").error().Text(), "dir/rig.yaml: there is no host 'lefft'; did you mean 'left'?");
   const Launch launch = Launch::Parse(kLaunch, "dir/empty.yaml", {{"nodes.b.host", "lft"}}).value();
   EXPECT_EQ(lab.Fits(launch).error().Text(),
-            "--set nodes.b.host=lft: node 'b' belongs to host 'lft', which is not in dir/rig.yaml; did you mean 'left'?");
+            "--set nodes.b.host=lft: node 'b' belongs to host 'lft', which is not in dir/rig.yaml; "
+            "did you mean 'left'?");
 }
 
 TEST(Agreement, IsOfWhatTheRunIsAndNotOfThePc) {

@@ -110,7 +110,7 @@ TEST_F(RecordingCommands, ATruncatedOneIsNotWholeAndARemovedOneIsNotThere) {
   std::filesystem::remove(Path("a.mcap"));
   const Said gone = InfoOf(Path("a.mcap"));
   EXPECT_EQ(gone.status, 2);
-  EXPECT_THAT(gone.errors, HasSubstr("No such file"));
+  EXPECT_THAT(gone.errors, HasSubstr("no such file"));
   EXPECT_THAT(WrittenFile(Path("a.mcap"), 3.0), HasSubstr("no such file: it was removed"));
   EXPECT_EQ(WrittenFile("", 3.0), "") << "nothing was recorded";
 }
