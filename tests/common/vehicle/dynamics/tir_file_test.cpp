@@ -67,7 +67,7 @@ TEST(TirFile, RefusalsNamePlaceAndRemedy) {
       HasSubstr("t.tir:11: FITTYP is 22; 5, 6, 21, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY2 = -.1x"), HasSubstr("'PDY2' is '-.1x'; a number was expected"));
   EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY2 = nan"), HasSubstr("a number was expected"));
-  EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY1 = -.1"), HasSubstr("'PDY1' stands in line "));
+  EXPECT_THAT(ProblemAfter("PDY2 = -.1", "PDY1 = -.1"), HasSubstr("'PDY1' is given in line "));
   EXPECT_THAT(ProblemAfter("PDX1 = 1.1\n", ""), HasSubstr("'PDX1' was expected"));
   EXPECT_THAT(ProblemAfter("PKY1 = -18", "PKY1 = 18"), HasSubstr("a positive slip angle gives a force to the right"));
   EXPECT_THAT(ProblemAfter("FNOMIN = 4000", "FNOMIN = 0"), HasSubstr("'FNOMIN' is 0; more than 0 was expected"));

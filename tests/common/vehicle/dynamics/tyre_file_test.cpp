@@ -170,7 +170,7 @@ TEST(TyreFile, OtherFilesAreRefusedInASentence) {
               HasSubstr("t.tir:6: PROPERTY_FILE_FORMAT is 'FTIRE'"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "'PAC2002'", "'HOUSE'")), HasSubstr("is 'HOUSE', and there is no FITTYP"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "PDY2 = -0.12", "PDY2 = nan")), HasSubstr("'PDY2' is 'nan'; a number"));
-  EXPECT_THAT(Refusal(Changed(kPac2002, "PDY2 = -0.12", "PDY1 = 1")), HasSubstr("'PDY1' stands in line"));
+  EXPECT_THAT(Refusal(Changed(kPac2002, "PDY2 = -0.12", "PDY1 = 1")), HasSubstr("'PDY1' is given in line"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "FZMAX = 9500", "FZMAX = 1e12")), HasSubstr("t.tir:15: 'FZMAX' is 1e+12 N"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "FZMIN = 100", "FZMIN = 10000")), HasSubstr("a range of loads was expected"));
   EXPECT_THAT(Refusal(Changed(kPac2002, "FZMAX = 9500", "FZMAX = 200")), HasSubstr("that reaches the nominal load"));

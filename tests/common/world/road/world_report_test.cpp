@@ -114,7 +114,7 @@ TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
   EXPECT_NEAR(back.value().x(), 500000.0, 1e-6);
   EXPECT_NEAR(back.value().y(), 4553100.0, 1e-4);  // nine digits of a degree
   EXPECT_THAT(DescribePoint(*Sample(), 0.0, 0.0), Not(HasSubstr("longitude")));
-  EXPECT_THAT(PlaceOnMap(*Sample(), -9.0, 41.0).error().Text(), HasSubstr("does not say where on the earth it lies"));
+  EXPECT_THAT(PlaceOnMap(*Sample(), -9.0, 41.0).error().Text(), HasSubstr("no position on the earth"));
 }
 
 TEST_F(WorldReport, InfoTellsWhatTheWorldHolds) {
