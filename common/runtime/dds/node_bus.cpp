@@ -166,8 +166,7 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
 }
 
 void NodeBus::SendNack(const lockstep::Gap& gap) {
-  (void)nack_writer_->Write(
-      EncodeNack(roster_.hash(), {settings_.node, gap}));  // the runner repeats a lost nack
+  (void)nack_writer_->Write(EncodeNack(roster_.hash(), {settings_.node, gap}));  // the runner repeats a lost nack
 }
 
 void NodeBus::OnNack(const base::Bytes& payload) {
