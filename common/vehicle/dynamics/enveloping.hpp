@@ -14,8 +14,8 @@ namespace rodeira::dynamics {
 // up to kRingReach times the radius R to both sides. The ring is lowered until it touches, with its hub at the height
 //   max over x' of z(x') + sqrt(R² - (x' - x)²),
 // and the contact plane is the ring's tangent there. On a plane this is the plane itself, to rounding. At an edge of
-// height z, a distance d ahead, the hub is at z + sqrt(R² - d²). Between the samples the ground is SUELO's plane at the
-// nearest sample (slopes above 2 count as 2), so an edge's position is resolved to half their distance, 0.022 R.
+// height z, a distance d ahead, the hub is at z + sqrt(R² - d²). Between samples the ground is SUELO's plane at the
+// nearest one (slopes above 2 count as 2), so an edge's position is resolved to half their distance, 0.022 R.
 // Across the wheel the contact plane has the slope of the ground at the contact point.
 inline constexpr int kRingPoints = 41;
 inline constexpr double kRingReach = 0.9;

@@ -108,7 +108,7 @@ Child& Child::operator=(Child&& other) noexcept {
   kill_signal_ = other.kill_signal_;
   exit_status_ = other.exit_status_;
   memory_kills_at_start_ = other.memory_kills_at_start_;
-  memory_ended_ = other.memory_ended_;
+  for_memory_ = other.for_memory_;
   return *this;
 }
 
@@ -158,7 +158,7 @@ void Child::Poll() {
     }
   }
   if (!ended_ && kill_signal_ == 0) kill_signal_ = KilledBy(pid_);
-  if (kill_signal_ == SIGKILL) memory_ended_ = MemoryKills() != memory_kills_at_start_;
+  if (kill_signal_ == SIGKILL) for_memory_ = MemoryKills() != memory_kills_at_start_;
 }
 
 void Child::Signal(int number) const {
@@ -169,7 +169,7 @@ std::string Child::Fate() const {
   const std::string place = log_ == nullptr || log_->crash_place().empty() ? "" : " in " + log_->crash_place();
   if (kill_signal_ != 0)
     return fmt::format("was killed by signal {} ({}{}){}", kill_signal_, ::strsignal(kill_signal_),
-                       memory_ended_ ? "; the kernel has killed for lack of memory since this part started" : "",
+                       for_memory_ ? "; the kernel has killed for lack of memory since this part started" : "",
                        place);
   if (exit_status_ == 127) return "could not be started";
   if (exit_status_) return fmt::format("left with status {}{}", *exit_status_, place);

@@ -76,7 +76,7 @@ class Child {
   int kill_signal_ = 0;
   std::optional<int> exit_status_;
   std::uint64_t memory_kills_at_start_ = 0;
-  bool memory_ended_ = false;  // killed, and the kernel has killed for lack of memory since it was started
+  bool for_memory_ = false;  // killed, and the kernel has killed for lack of memory since it was started
 };
 
 }  // namespace rodeira::cli

@@ -24,7 +24,7 @@ TEST_F(Changes, AWrongChangeIsAtTheOptionThatSaysIt) {
   for (const auto& [change, names] :
        {std::pair("sed=2", "config.unknown_key … --branch sed=2: … 'seed'"),
         std::pair("seed=abc", "config.wrong_type … --branch seed=abc: 'seed'"),
-        std::pair("nodes.ego.config.vehicl=1", "config.unknown_key … --branch nodes.ego.config.vehicl=1: … 'vehicle'"),
+        std::pair("nodes.ego.config.vehicl=1", "config.unknown_key … --branch nodes.ego.config.vehicl=1 … vehicle"),
         std::pair("nodes.eog.config.vehicle=~",
                   "launch.unknown_node … --branch nodes.eog.config.vehicle=~: … 'ego'")}) {
     const auto ended = branch(change, "0.1");
