@@ -10,7 +10,7 @@
 namespace rodeira::road {
 namespace {
 
-constexpr const char* kKind = "hills 1";
+constexpr const char* kHillsKind = "hills 1";
 
 // Of all arguments of MakeHills that change a height.
 base::Digest SourceOf(const HillsSpec& spec, std::span<const AxisPoint> axis) {
@@ -37,13 +37,13 @@ terrain::ElevationGrid MakeHillsOnce(const HillsSpec& spec, std::span<const Axis
   if (cache == nullptr || !cache->is_used()) return MakeHills(spec, axis);
   const base::Digest source = SourceOf(spec, axis);
   const auto posts = static_cast<std::size_t>(spec.columns) * static_cast<std::size_t>(spec.rows);
-  if (const auto kept = cache->Find(kKind, source); kept && kept->size() == posts * sizeof(float)) {
+  if (const auto kept = cache->Find(kHillsKind, source); kept && kept->size() == posts * sizeof(float)) {
     std::vector<float> heights_m(posts);
     std::memcpy(heights_m.data(), kept->data(), kept->size());
     return terrain::ElevationGrid(FrameOf(spec), std::move(heights_m), spec.projection_wkt);
   }
   terrain::ElevationGrid made = MakeHills(spec, axis);
-  cache->Keep(kKind, source, std::as_bytes(made.heights_m()));
+  cache->Keep(kHillsKind, source, std::as_bytes(made.heights_m()));
   return made;
 }
 

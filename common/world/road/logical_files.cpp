@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kKind = "rodeira: logical/1";
+constexpr std::string_view kLogicalKind = "rodeira: logical/1";
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 // Copies a file and all that belongs to it, by paths from one folder to those from the other.
@@ -97,12 +97,12 @@ base::Status BeginLogical(const fs::path& folder) {
   if (!fs::is_directory(folder, problem))
     return base::WrongInput("file.not_folder", "this is no folder, and none can be made", folder.string());
   if (fs::exists(folder / kLogicalManifest, problem)) return {};
-  return base::WriteWhole(folder / kLogicalManifest, fmt::format("{}\n", kKind));
+  return base::WriteWhole(folder / kLogicalManifest, fmt::format("{}\n", kLogicalKind));
 }
 
 base::Status WriteLogical(const fs::path& folder, base::Digest content_hash, std::vector<fs::path> files) {
   std::sort(files.begin(), files.end());
-  std::string text = fmt::format("{}\ncontent_hash: {}\n", kKind, base::Hex(content_hash));
+  std::string text = fmt::format("{}\ncontent_hash: {}\n", kLogicalKind, base::Hex(content_hash));
   for (const fs::path& name : files) {
     const auto bytes = base::ReadBytes(folder / name);
     if (!bytes) return bytes.error();
@@ -131,9 +131,9 @@ std::vector<base::Error> LogicalProblems(const fs::path& folder) {
   std::istringstream lines(text.value());
   std::string line;
   std::getline(lines, line);
-  if (line != kKind)
+  if (line != kLogicalKind)
     return {base::WrongInput("world.wrong_manifest",
-                             fmt::format("the first line is '{}'; '{}' was expected", line, kKind),
+                             fmt::format("the first line is '{}'; '{}' was expected", line, kLogicalKind),
                              (folder / kLogicalManifest).string())};
   if (!std::getline(lines, line))  // the content hash
     return {base::WrongInput("world.built_file_missing",

@@ -169,8 +169,7 @@ std::string Child::Fate() const {
   const std::string place = log_ == nullptr || log_->crash_place().empty() ? "" : " in " + log_->crash_place();
   if (kill_signal_ != 0)
     return fmt::format("was killed by signal {} ({}{}){}", kill_signal_, ::strsignal(kill_signal_),
-                       for_memory_ ? "; the kernel has killed for lack of memory since this part started" : "",
-                       place);
+                       for_memory_ ? "; the kernel has killed for lack of memory since this part started" : "", place);
   if (exit_status_ == 127) return "could not be started";
   if (exit_status_) return fmt::format("left with status {}{}", *exit_status_, place);
   if (stopped_) return fmt::format("was stopped by signal {} ({})", stop_signal_, ::strsignal(stop_signal_));

@@ -91,7 +91,7 @@ TEST(MapNeighbours, AreThoseThatShareABorder) {
   const lanes::Graph ways(*both);
   EXPECT_EQ(ways.Oncoming(TrackOf(ways, "1")), TrackOf(ways, "2"));
   EXPECT_EQ(ways.Oncoming(TrackOf(ways, "2")), TrackOf(ways, "1"));
-  ASSERT_EQ(ways.tracks().size(), 2U);
+  ASSERT_EQ(ways.tracks().size(), 4U);
   for (const lanes::Track& track : ways.tracks()) EXPECT_FALSE(track.left || track.right);
 }
 
