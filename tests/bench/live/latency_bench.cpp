@@ -34,9 +34,10 @@ struct Size {
   int width_px = 320, height_px = 180;
 };
 
+// The threads of the run go on: nothing is destroyed.
 [[noreturn]] void Fail(const std::string& why) {
   fmt::print(stderr, "{}\n", why);
-  std::exit(1);
+  std::_Exit(1);
 }
 
 std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms,
@@ -62,12 +63,15 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size,
     return display.HashOf(size.width_px / 4, size.height_px / 2, size.width_px / 2, size.height_px / 2);
   };
   for (int turn = 0; turn < turns; ++turn) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    const auto before = seen();
-    // Whatever phase of all periods it meets.
-    std::this_thread::sleep_for(std::chrono::microseconds(
-        200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0))));
-    if (seen() != before) Fail("the picture changes although nobody touches the wheel");
+    // Until the car has settled, and then to any phase of all periods.
+    const auto rest = std::chrono::microseconds(
+        200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0)));
+    const auto until = Wall::now() + std::chrono::seconds(10);
+    auto before = seen();
+    for (std::this_thread::sleep_for(rest); seen() != before; std::this_thread::sleep_for(rest)) {
+      if (Wall::now() > until) Fail("the picture still changes 10 s after the last turn of the wheel");
+      before = seen();
+    }
     const auto begin = Wall::now();
     SDL_JoystickSetVirtualAxis(wheel, 0, static_cast<Sint16>(turn % 2 == 0 ? 6000 : -6000));
     while (seen() == before) {
@@ -87,7 +91,7 @@ int main(int argc, char** argv) {
   cli::UseAllGraphics();
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
   const Size size = argc > 5 ? Size{std::atoi(argv[4]), std::atoi(argv[5])} : Size();
-  if (size.width_px < 64 || size.height_px < 64) Fail("width and height are wanted in pixels, at least 64");
+  if (size.width_px < 64 || size.height_px < 64) Fail("width and height: expected pixels, at least 64");
   const std::string world = argc > 6 ? argv[6] : "configs/worlds/plane.yaml";  // a path from the project's folder
   const bench::WatchedDisplay display(97, size.width_px, size.height_px);
   ::setenv("DISPLAY", display.name().c_str(), 1);
@@ -98,7 +102,8 @@ int main(int argc, char** argv) {
   SDL_JoystickGetGUIDString(SDL_JoystickGetDeviceGUID(index), guid, sizeof(guid));
   SDL_Joystick* wheel = SDL_JoystickOpen(index);
   if (wheel == nullptr) Fail(SDL_GetError());
-  for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
+  SDL_JoystickSetVirtualAxis(wheel, 2, 32767);   // throttle: released
+  SDL_JoystickSetVirtualAxis(wheel, 3, -32768);  // brake: pressed, as the automatic gearbox creeps
 
   const auto launch =
       launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size, world),

@@ -48,7 +48,7 @@ WatchedDisplay::WatchedDisplay(int number, int width_px, int height_px)
   for (int tries = 0; tries < 100 && !(std::filesystem::exists(socket) && std::filesystem::exists(file)); ++tries)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   if (!std::filesystem::exists(file))
-    Give("Xvfb did not start: the package xvfb was expected, and nobody else at display " + name_);
+    Give("Xvfb did not start: the package xvfb was expected, and no other server of display " + name_);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   Map();
 }
