@@ -103,8 +103,12 @@ int Measures(const MeasuresOptions& options) {
     return base::PrintError("rodeira measures", status.error());
   if (auto status = WriteTable(options, spec.value(), rows, facts); !status)
     return base::PrintError("rodeira measures", status.error());
-  if (!options.quiet && !options.out.empty())
-    fmt::print("wrote {} and {}\n", options.out, SidecarOf(options.out).string());
+  if (options.quiet || options.out.empty()) return 0;
+  fmt::print("wrote {} and {}\n", options.out, SidecarOf(options.out).string());
+  for (const measures::MeasuresRow& row : rows) {  // of empty cells
+    if (!row.interval.reason.empty())
+      fmt::print(stderr, "rodeira: warning: {}: interval '{}': {}\n", row.file, row.interval.name, row.interval.reason);
+  }
   return 0;
 }
 

@@ -37,6 +37,7 @@ TEST_F(MeasuresCommand, ATableOfTwoDrivesOnAPlane) {
   EXPECT_EQ(rows[0].at("condition"), "dry");
   EXPECT_EQ(rows[3].at("condition"), "rain");
   EXPECT_EQ(rows[5].at("speed_max_mps"), "") << "the second recording ends before: missing, and not 0";
+  EXPECT_THAT(said.errors, HasLine("warning … wet.mcap … 'late' … 3.5 s"));
   EXPECT_EQ(rows[0].at("sdlp_m"), "") << "a plane has no lanes";
   EXPECT_EQ(rows[0].at("gap_mean_m"), "");
 
