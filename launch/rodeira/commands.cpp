@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,18 @@ std::vector<std::string> WordsOf(int argc, char** argv) {
   return words;
 }
 
+// Other processes compute the run.
+bool RunsProcesses(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "run" && std::none_of(argv + 2, argv + argc, [](const char* word) {
+           return std::string_view(word).starts_with("--in-process");
+         });
+}
+
 int RunCommandLine(int argc, char** argv) {
-  base::PinMathLibrary(argv);
+  if (RunsProcesses(argc, argv))
+    base::PinMathLibraryOfChildren();
+  else
+    base::PinMathLibrary(argv);
   base::NameExhaustion("rodeira");
   KeepArguments(argc, argv);
   if (argc == 1) return ChooseCommand();

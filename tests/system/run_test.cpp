@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "tests/names.hpp"
@@ -74,6 +76,23 @@ TEST(Run, RealPaceTakesRealTime) {
       RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--pace", "real"});
   EXPECT_EQ(run.status, 0) << run.out;
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 500ms);
+}
+
+// A program that executes itself anew is named after /proc/self/exe.
+TEST(Run, NoProcessOfItIsStartedTwice) {
+  Started run({"GLIBC_TUNABLES=", Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--run",
+               "started-once", "--pace", "real", "--for", "1000"});
+  ASSERT_TRUE(Runs("started-once"));
+  const auto name_of = [](pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
+    std::string text;
+    std::getline(file, text);
+    return text;
+  };
+  EXPECT_EQ(name_of(run.pid()), "rodeira");
+  EXPECT_EQ(name_of(ProcessWith("--run started-once", "--node a")), "rodeira-empty");
+  ::kill(run.pid(), SIGINT);
+  EXPECT_EQ(run.Wait().status, 0);
 }
 
 TEST(Run, CtrlCStopsAllNodesAtTheSameStepAndIsNoFault) {

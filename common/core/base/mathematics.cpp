@@ -52,6 +52,20 @@ Digest ComputeFingerprint() {
   return Hash(out.bytes());
 }
 
+bool g_is_set_for_children = false;
+
+bool IsSet() {
+  const char* tunables = std::getenv("GLIBC_TUNABLES");
+  return tunables != nullptr && std::strstr(tunables, kTunables) != nullptr;
+}
+
+void Set() {
+  const char* tunables = std::getenv("GLIBC_TUNABLES");
+  const std::string wanted =
+      tunables == nullptr || *tunables == '\0' ? std::string(kTunables) : std::string(tunables) + ":" + kTunables;
+  ::setenv("GLIBC_TUNABLES", wanted.c_str(), 1);
+}
+
 }  // namespace
 
 Digest MathLibraryFingerprint() {
@@ -59,17 +73,17 @@ Digest MathLibraryFingerprint() {
   return digest;
 }
 
-bool MathematicsFixed() {
-  const char* tunables = std::getenv("GLIBC_TUNABLES");
-  return tunables != nullptr && std::strstr(tunables, kTunables) != nullptr;
+bool MathematicsFixed() { return IsSet() && !g_is_set_for_children; }
+
+void PinMathLibraryOfChildren() {
+  if (IsSet()) return;
+  Set();
+  g_is_set_for_children = true;
 }
 
 void PinMathLibrary(char** argv) {
   if (MathematicsFixed()) return;
-  const char* tunables = std::getenv("GLIBC_TUNABLES");
-  const std::string wanted =
-      tunables == nullptr || *tunables == '\0' ? std::string(kTunables) : std::string(tunables) + ":" + kTunables;
-  ::setenv("GLIBC_TUNABLES", wanted.c_str(), 1);
+  if (!IsSet()) Set();
   ::execv("/proc/self/exe", argv);
   // Where /proc is not mounted the run goes on; the mathematics digest in the hello finds a machine that differs.
 }

@@ -16,4 +16,8 @@ bool MathematicsFixed();
 // and executes this program anew with the same arguments; returns where nothing was to be done. Call it first in main.
 void PinMathLibrary(char** argv);
 
+// The same for the programs that this one starts, without executing it anew: that costs a start of the program. For a
+// program that computes nothing of a run itself.
+void PinMathLibraryOfChildren();
+
 }  // namespace rodeira::base

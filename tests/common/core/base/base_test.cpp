@@ -273,24 +273,36 @@ TEST(Files, AMissingFileIsSaidWithTheNearestBesideIt) {
 
 TEST(Mathematics, TheDigestIsTheSameTwice) { EXPECT_EQ(MathLibraryFingerprint(), MathLibraryFingerprint()); }
 
+std::string DigestOfAProgram(const std::string& environment) {
+  const std::string command = environment + " " + BinaryDir() + "/bin/mathematics_digest";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  char text[64] = {};
+  const bool read = std::fgets(text, sizeof(text), pipe) != nullptr;
+  EXPECT_EQ(::pclose(pipe), 0);
+  EXPECT_TRUE(read);
+  return text;
+}
+
 // Law L7: the fixed choice of code is what makes machines agree. Where this processor has FMA, the library's own
 // choice gives other bits, and the digest sees it.
 TEST(Mathematics, TheFixedChoiceDiffersFromTheProcessorsOwn) {
-  const auto ask = [](const std::string& environment) {
-    const std::string command = environment + " " + BinaryDir() + "/bin/mathematics_digest";
-    FILE* pipe = ::popen(command.c_str(), "r");
-    char text[64] = {};
-    const bool read = std::fgets(text, sizeof(text), pipe) != nullptr;
-    EXPECT_EQ(::pclose(pipe), 0);
-    EXPECT_TRUE(read);
-    return std::string(text);
-  };
-  const std::string fixed = ask("env -u GLIBC_TUNABLES");
-  EXPECT_EQ(fixed, ask("GLIBC_TUNABLES=glibc.malloc.check=0"));
+  const std::string fixed = DigestOfAProgram("env -u GLIBC_TUNABLES");
+  EXPECT_EQ(fixed, DigestOfAProgram("GLIBC_TUNABLES=glibc.malloc.check=0"));
   std::ifstream cpuinfo("/proc/cpuinfo");
   const std::string flags((std::istreambuf_iterator<char>(cpuinfo)), {});
   if (flags.find(" fma ") == std::string::npos) GTEST_SKIP() << "this processor has no FMA: there is but one choice";
-  EXPECT_NE(fixed, ask("env -u GLIBC_TUNABLES RODEIRA_TEST_KEEP_MATHEMATICS=1"));
+  EXPECT_NE(fixed, DigestOfAProgram("env -u GLIBC_TUNABLES RODEIRA_TEST_KEEP_MATHEMATICS=1"));
+}
+
+// The program that sets the choice for its children has not got it itself.
+TEST(Mathematics, TheChoiceForChildrenIsTheirs) {
+  const std::string fixed = DigestOfAProgram("env -u GLIBC_TUNABLES");
+  const auto set_and_ask = [&] {
+    ::unsetenv("GLIBC_TUNABLES");
+    PinMathLibraryOfChildren();
+    return !MathematicsFixed() && DigestOfAProgram("RODEIRA_TEST_KEEP_MATHEMATICS=1") == fixed;
+  };
+  EXPECT_EXIT(std::exit(set_and_ask() ? 0 : 1), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(TemporaryFolder, IsItsOwnAndGoneAtTheEnd) {
