@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/traffic/perception/neighbours.hpp"
+#include "common/traffic/perception/seen_on.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
@@ -60,15 +61,7 @@ std::optional<Leader> Neighbours::FindOvertaken(std::uint32_t id) const {
                       other.front_m - other.rear_m};
     }
     for (const Block& block : in_.blocks[stretch.track]) {
-      if (block.body == way.passed_body)
-        return Leader{stretch.zero_m + block.span.rear_m - front,
-                      block.span.speed_mps,
-                      -1,
-                      true,
-                      block.body,
-                      block.span.front_m - block.span.rear_m,
-                      block.span.left_m,
-                      block.span.right_m};
+      if (block.body == way.passed_body) return LeaderOf(block, stretch.zero_m + block.span.rear_m - front);
     }
   }
   return std::nullopt;

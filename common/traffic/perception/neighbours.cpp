@@ -86,14 +86,7 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
         (agent.overtaking.active() && (IsPassed(agent.overtaking, front, -1, block.body, gap) ||
                                        IsCleared(agent.overtaking, front, block.body, gap, block.span.speed_mps))))
       return std::nullopt;
-    return Leader{gap,
-                  block.span.speed_mps,
-                  -1,
-                  true,
-                  block.body,
-                  block.span.front_m - block.span.rear_m,
-                  block.span.left_m,
-                  block.span.right_m};
+    return LeaderOf(block, gap);
   };
   std::int64_t before = -1;  // the track by which its own way comes
   for (const RouteSegment& stretch : in_.stretches[id]) {

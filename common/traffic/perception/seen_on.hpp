@@ -21,6 +21,17 @@ inline std::span<const Block> BlocksOn(bool any_block, std::span<const std::vect
                                        std::uint32_t track) {
   return any_block ? std::span<const Block>(blocks[track]) : std::span<const Block>();
 }
+// What stands or drives on a track, as the next vehicle on a way.
+inline Leader LeaderOf(const Block& block, double gap_m) {
+  return {gap_m,
+          block.span.speed_mps,
+          -1,
+          true,
+          block.body,
+          block.span.front_m - block.span.rear_m,
+          block.span.left_m,
+          block.span.right_m};
+}
 // Of a track, m; the cache spares a look into the graph.
 inline double LengthOf(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.length_m : graph[track].length_m();
