@@ -54,7 +54,7 @@ class Watcher {
     std::int64_t same = 0;
     for (const AgentPose& pose : model.poses()) {
       result_.fuel_mg += result_.steps > 0 ? model.agent(pose.id).fuel_mgps * settings_.step_s : 0.0;
-      result_.vehicle_s += settings_.step_s;
+      result_.vehicle_s += result_.steps > 0 ? settings_.step_s : 0.0;
       Before& before = before_[pose.id];
       const Before was = before;
       before = {pose.p_WB_W.head<2>(), pose.speed_mps, pose.acceleration_mps2, result_.steps, pose.trip};
@@ -65,7 +65,6 @@ class Watcher {
       if (settings_.feels) Feel(model, pose, was.acceleration_mps2, was_heading_rad);
       const double moved = (pose.p_WB_W.head<2>() - was.p_W).norm();
       const double told = 0.5 * (pose.speed_mps + was.speed_mps) * settings_.step_s;
-      result_.driven_km += 1e-3 * moved;
       const double error = std::fabs(moved - told);
       if (error > Untold_m()) Tell("moved {:.4f} m instead of {:.4f} m", pose, moved, told);
       result_.worst_step_m = std::max(result_.worst_step_m, error);
@@ -235,7 +234,10 @@ base::Result<StudyResult> Study(const StudySettings& settings, base::Result<Traf
   result.intervals = std::move(intervals);
   result.on_road = model.on_road();
   result.waiting = model.waiting();
-  for (std::uint32_t id = 0; id < model.vehicles(); ++id) result.arrivals += model.agent(id).trip;
+  for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
+    result.arrivals += model.agent(id).trip;
+    result.driven_km += 1e-3 * model.agent(id).driven_m;
+  }
   return result;
 }
 

@@ -28,10 +28,10 @@ struct StudySettings {
   double every_s = 0.0;  // the lanes' sums are noted so often, too; 0: they are not
 };
 
-// What came out of a run of the model alone. Everything is counted from the published poses.
+// What came out of a run of the model alone. All but the way driven is counted from the published poses.
 struct StudyResult {
   std::int64_t steps = 0;
-  double driven_km = 0.0;
+  double driven_km = 0.0;  // by all, with what they drove in the step in which they left
   double vehicle_s = 0.0;  // on the road, summed over all
   double standing_s = 0.0;
   double longest_stand_s = 0.0;

@@ -9,6 +9,7 @@
 
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 
@@ -70,6 +71,36 @@ TEST(LongSteps, LetAsManyThrough) {
       EXPECT_GT(left, 100.0) << map;
       EXPECT_NEAR(left, ended, 0.03 * ended) << map << ", " << step_s;
     }
+  }
+}
+
+// A trip over 800 m drives them but for the length of the vehicle, and to where its front is in the step in which it
+// leaves, however long that is.
+TEST(LongSteps, CountTheWayOfTheStepInWhichAVehicleLeaves) {
+  constexpr double kRoad_m = 800.0, kFastest_mps = 20.0;
+  for (const double step_s : {0.1, 1.0}) {
+    StudySettings study;
+    study.traffic = Settings(
+        "vehicles: 60\nlane_changes: {allowed: false}\nmix: {car: 1}\nflows:\n"
+        "  - {lane: '1:-1', vehicles_per_h: 900}\n");
+    study.traffic.variety = 0.0;
+    study.traffic.speed_factor_low = study.traffic.speed_factor_high = 1.0;
+    study.duration_s = 1200.0, study.step_s = step_s, study.watch_s = step_s;
+    double under_way_m = 0.0, shortest_m = 1e9, longest_m = 0.0;
+    const auto watch = [&](const StudyMoment& moment) {
+      under_way_m = 0.0;
+      for (const AgentPose& pose : moment.model.poses()) {
+        const double length = moment.model.traits(pose.id).length_m;
+        shortest_m = std::min(shortest_m, length), longest_m = std::max(longest_m, length);
+        under_way_m += moment.model.agent(pose.id).o_m - 0.5 * length;
+      }
+    };
+    const StudyResult result = RunStudy(study, Exit(500.0), watch).value();
+    const auto left = static_cast<double>(result.left);
+    EXPECT_GT(left, 200.0);
+    const double trips_m = 1000.0 * result.driven_km - under_way_m;
+    EXPECT_GE(trips_m, left * (kRoad_m - longest_m) - 0.01) << step_s;
+    EXPECT_LE(trips_m, left * (kRoad_m - shortest_m + kFastest_mps * step_s) + 0.01) << step_s;
   }
 }
 
