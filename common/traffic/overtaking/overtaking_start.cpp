@@ -108,10 +108,11 @@ std::optional<OvertakingStart::RestOut> OvertakingStart::ShorterRest(std::uint32
 
 std::optional<double> OvertakingStart::PassesStanding_m(std::uint32_t id, double below_mps) const {
   const Agent& agent = out_.agents[id];
-  const lanes::Track& track = in_.map.graph[agent.path.back().track];
-  if (!in_.settings.overtaking.allowed || agent.overtaking.active() || track.left || track.right) return std::nullopt;
+  if (!in_.settings.overtaking.allowed || agent.overtaking.active()) return std::nullopt;
   const auto body = in_.lanes_beside.BlockedBy(id, below_mps);
-  if (!body) return std::nullopt;
+  if (!body) return std::nullopt;  // hardly ever is there one: the track, in far memory, is looked at behind this
+  const lanes::Track& track = in_.map.graph[agent.path.back().track];
+  if (track.left || track.right) return std::nullopt;
   const double front = FrontOf(agent, in_.traits[id]), stands = front + body->gap_m, clear = stands + body->length_m;
   const auto piece = PieceOut(id, 0.0);
   if (!piece || !in_.lanes_beside.IsPlain(id, front, clear + kFarFromJunction_m)) return std::nullopt;
