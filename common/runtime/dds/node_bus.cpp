@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/core/base/recycled_bytes.hpp"
 #include "common/core/base/wait.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/sample_difference.hpp"
@@ -15,6 +16,17 @@ namespace rodeira::dds {
 
 namespace topics = idl::topics;
 using lockstep::LifeEvent;
+
+namespace {
+
+// Bytes that nothing else needs.
+base::Status WriteOnce(Writer& writer, base::Bytes&& payload) {
+  auto status = writer.Write(payload);
+  base::RecycleBytes(std::move(payload));
+  return status;
+}
+
+}  // namespace
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
     : roster_(roster),
@@ -29,7 +41,7 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
   retransmit_server_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
                              [this](lockstep::NodeIndex requester, std::span<const lockstep::Sample> samples) {
                                if (requester != settings_.node)
-                                 (void)answers_writer_->Write(EncodeSampleBatch(requester, samples));
+                                 (void)WriteOnce(*answers_writer_, EncodeSampleBatch(requester, samples));
                              });
 }
 
@@ -137,11 +149,10 @@ base::Status NodeBus::ConnectSampleBatches(Participant& participant) {
 }
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
-  const lockstep::Grant grant = mailbox_.grant();
   retransmit_server_->Keep(sample);
-  for (const auto& batch : batches_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
+  for (const auto& batch : batches_.Add(sample, mailbox_.last_step())) {
     if (IsHere(batch.to)) continue;
-    if (auto status = batch_writers_.at(batch.to)->Write(EncodeSampleBatch(batch.to, batch.samples)); !status)
+    if (auto status = WriteOnce(*batch_writers_.at(batch.to), EncodeSampleBatch(batch.to, batch.samples)); !status)
       return status;
   }
   // Also where every consumer gets batches or is in this process: others may look on.
@@ -166,7 +177,7 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
 }
 
 void NodeBus::SendNack(const lockstep::Gap& gap) {
-  (void)nack_writer_->Write(EncodeNack(roster_.hash(), {settings_.node, gap}));  // the runner repeats a lost nack
+  (void)WriteOnce(*nack_writer_, EncodeNack(roster_.hash(), {settings_.node, gap}));  // the runner repeats a lost nack
 }
 
 void NodeBus::OnNack(const base::Bytes& payload) {
@@ -252,7 +263,7 @@ void NodeBus::Tell(const lockstep::Report& report) {
     if (last_.phase > lockstep::Phase::kReady && grant.through >= 0) named.hello.topics = nullptr;
   }
   named.node = roster_.node(settings_.node).name;
-  (void)reports_->Write(EncodeReport(named));  // a lost report is said again by the heartbeat
+  (void)WriteOnce(*reports_, EncodeReport(named));  // a lost report is said again by the heartbeat
 }
 
 void NodeBus::Follow(const lockstep::Runner* runner) {
@@ -278,7 +289,7 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
   }
   // Of a topic on which nodes of other processes publish, too. An answer has no topic.
   if (!topic.empty() && IsLocal(header.source)) return;
-  Take({header, std::make_shared<const base::Bytes>(std::move(payload))});
+  Take({header, base::ShareBytes(std::move(payload))});
 }
 
 void NodeBus::TakeLocal(const lockstep::Sample& sample) {

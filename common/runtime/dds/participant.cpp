@@ -22,6 +22,7 @@
 #include <mutex>
 #include <utility>
 
+#include "common/core/base/recycled_bytes.hpp"
 #include "common/runtime/dds/library_log.hpp"
 #include "common/runtime/dds/participant_qos.hpp"
 #include "common/runtime/dds/raw_type.hpp"
@@ -85,6 +86,7 @@ class FastReader final : public Reader, public fdds::DataReaderListener {
     while (reader->take_next_sample(&sample, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
       if (info.valid_data) on_payload_(std::move(sample.bytes));
     }
+    base::RecycleBytes(std::move(sample.bytes));
   }
 
  private:

@@ -2,6 +2,9 @@
 #include "common/runtime/dds/raw_type.hpp"
 
 #include <cstring>
+#include <utility>
+
+#include "common/core/base/recycled_bytes.hpp"
 
 namespace rodeira::dds {
 
@@ -31,7 +34,12 @@ bool RawType::serialize(void* data, SerializedPayload_t* payload) {
 
 bool RawType::deserialize(SerializedPayload_t* payload, void* data) {
   const auto* begin = reinterpret_cast<const std::byte*>(payload->data);
-  static_cast<RawSample*>(data)->bytes.assign(begin, begin + payload->length);
+  base::Bytes& bytes = static_cast<RawSample*>(data)->bytes;
+  if (bytes.capacity() < payload->length) {
+    base::RecycleBytes(std::move(bytes));
+    bytes = base::TakeBytes(payload->length);
+  }
+  bytes.assign(begin, begin + payload->length);
   return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/recycled_bytes.hpp"
 #include "common/data/decode/type_text.hpp"
 #include "common/runtime/dds/hello_change.hpp"
 #include "common/runtime/launch/agreement.hpp"
@@ -311,8 +312,9 @@ base::Result<Opened> DecodeSampleBatch(const base::Bytes& payload) {
     if (length > all.size() - at)
       return base::WrongInput("dds.wrong_message", fmt::format("a batch of {} bytes has {} left for a sample of {}",
                                                                all.size(), all.size() - at, length));
-    opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at),
-                                all.begin() + static_cast<std::ptrdiff_t>(at + length));
+    base::Bytes& sample = opened.samples.emplace_back(base::TakeBytes(length));
+    const std::span<const std::byte> content = all.subspan(at, length);
+    sample.assign(content.begin(), content.end());
     at += length;
   }
   return opened;

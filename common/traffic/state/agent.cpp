@@ -17,6 +17,19 @@ constexpr double kShortestBlend_m = 3.0;
 constexpr double kLongestBlend_m = 90.0;
 constexpr std::size_t kPieceNumbers = 7;
 
+// What Save lines up for the writer; used again, so that a digest of the state allocates nothing.
+struct SaveLists {
+  std::vector<double> grants_to, grants_light, pieces;
+  std::vector<std::uint64_t> grants_told;
+  std::vector<std::uint32_t> tracks;
+
+  void Clear() {
+    for (auto* list : {&grants_to, &grants_light, &pieces}) list->clear();
+    grants_told.clear();
+    tracks.clear();
+  }
+};
+
 }  // namespace
 
 void Agent::Save(base::StateWriter& writer) const {
@@ -48,8 +61,9 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("told_side", told_side);
   writer.Put("told_past", told_past);
   writer.Put("granted_m", granted_m);
-  std::vector<double> grants_to, grants_light;
-  std::vector<std::uint64_t> grants_told;
+  thread_local SaveLists lists;
+  lists.Clear();
+  auto& [grants_to, grants_light, pieces, grants_told, tracks] = lists;
   for (const ZoneGrant& grant : grants) {
     grants_to.push_back(grant.to_m);
     grants_told.insert(grants_told.end(),
@@ -71,15 +85,13 @@ void Agent::Save(base::StateWriter& writer) const {
   writer.Put("eased_for", eased_for);
   writer.Put("seeks", seeks);
   writer.Put("overtaking", overtaking);
-  std::vector<std::uint32_t> tracks;
-  std::vector<double> numbers;
   for (const Piece& piece : path) {
     tracks.push_back(piece.track);
-    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m,
-                                   piece.blend_from_m, piece.aside_m});
+    pieces.insert(pieces.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m,
+                                 piece.blend_from_m, piece.aside_m});
   }
   writer.Put("tracks", tracks);
-  writer.Put("pieces", numbers);
+  writer.Put("pieces", pieces);
 }
 
 void Agent::Restore(base::StateReader& reader) {
