@@ -117,15 +117,20 @@ struct Simulation : TrafficData {
   void RestoreRoutes(base::StateReader& reader);
   void RestorePast(base::StateReader& reader);
   void StepPart(double dt_s, std::span<const driver::Footprint> others);
+  void Decide(double dt_s, std::span<const driver::Footprint> others);
   void Observe(std::span<const driver::Footprint> others);
   void LetPeopleCross(double dt_s);
-  void Reserve(double dt_s);
+  bool LooksAnew(std::span<const driver::Footprint> others) const;
+  std::int64_t NextLook_ns(std::int64_t step_ns) const;
+  void Reserve(double dt_s, std::int64_t turn_ns);
   void ChangeLanes(std::int64_t step_ns);
   void Overtake(std::int64_t step_ns);
-  void Accelerate(double dt_s);
+  void Accelerate(double dt_s, std::int64_t turn_ns);
+  void KeepOn(double dt_s);
+  void DriveCars(double dt_s);
   void LeaveOrSlide(double dt_s);
   void RemoveRequested();
-  void Enter(std::int64_t step_ns);
+  void Enter(std::int64_t step_ns, bool looks);
   void Show(std::int64_t step_ns);
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 // What a driver is told holds in the next step, whenever it would decide.
 void DecideAnew(VehicleStore& store, std::uint32_t id) {
-  if (!store.decided.empty()) store.decided[id] = {};
+  if (!store.decided.empty()) store.decided[id].trip = -1;
 }
 
 }  // namespace

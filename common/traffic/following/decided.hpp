@@ -14,6 +14,11 @@ struct Decided {
   std::int64_t leader = -1;  // an agent; below 0: none
   std::int64_t trip = -1;    // below 0: nothing is decided
   bool due = false;          // it had to know whether it may enter the next zones
+  // For the steps between two looks: the leader as it was, its trip, and how much more than the difference of
+  // their odometers the gap to it is.
+  bool follows = false;  // it wanted no more than that leader lets it
+  std::int64_t kept = -1, kept_trip = -1;
+  double apart_m = 0.0;
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "common/traffic/following/acceleration.hpp"
+#include "common/traffic/following/car_following.hpp"
 #include "common/traffic/following/decided.hpp"
+#include "common/traffic/following/speed_limits.hpp"
 #include "common/traffic/perception/sight.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/signals/signals.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 
@@ -20,7 +23,6 @@ class Decisions {
  public:
   struct Reads {
     const TrafficSettings& settings;
-    std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const std::int64_t& time_ns;
     std::span<const RouteSegments> stretches;
@@ -34,20 +36,32 @@ class Decisions {
     std::span<const double> leaves;
     std::span<const double> bars;
     const Acceleration& acceleration;
+    const CarFollowing& following;
+    const SpeedLimits& limits;
   };
   struct Writes {
     std::vector<Decided>& decided;
+    std::span<Agent> agents;
+    std::span<Leader> seen;  // without the reaction time
+    Signals& signals;
   };
   Decisions(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  // The acceleration that the driver wants in this step.
+  // The acceleration that the driver wants, in a step in which all is looked for anew; the next such one is so much
+  // later.
   double Wanted(std::uint32_t id, std::int64_t step_ns);
+  // In the steps between: first its leader of the last such step as that one is now …
+  void KeepLeader(std::uint32_t id);
+  // … then what it wanted then or, where that is less, what its leader, a light that changes or a command lets it now.
+  double Kept(std::uint32_t id);
 
  private:
   bool MayKeep(std::uint32_t id, std::int64_t step_ns) const;
   bool IsManoeuvring(std::uint32_t id) const;
   bool SeesOthers(std::uint32_t id) const;
   bool IsPressed(std::uint32_t id) const;
+  double BehindLeader(std::uint32_t id) const;
+  void NoteLeader(std::uint32_t id);
 
   Reads in_;
   Writes out_;

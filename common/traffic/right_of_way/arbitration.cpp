@@ -16,8 +16,7 @@ constexpr std::size_t kZonePrefetch = 6;  // agents ahead with zones that are pr
 
 }  // namespace
 
-void RightOfWay::Arbitrate(double dt_s) {
-  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+void RightOfWay::Arbitrate(double dt_s, std::int64_t turn_ns) {
   out_.book.Clear();
   EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {
     if (!in_.people) out_.ahead[id] = in_.neighbours.FindLeader(id);
@@ -91,7 +90,7 @@ void RightOfWay::Arbitrate(double dt_s) {
     const Agent& agent = in_.agents[id];
     out_.beside[id] = agent.change.side != 0 || in_.tracks.HasBeside(id, agent.path.back().track);
     out_.passes[id] = agent.overtaking.active() || agent.told_past ||
-                      (in_.settings.overtaking.allowed && IsItsTurn(in_.time_ns, id, step_ns));
+                      (in_.settings.overtaking.allowed && IsItsTurn(in_.time_ns, id, turn_ns));
   });
 }
 

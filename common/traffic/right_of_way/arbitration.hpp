@@ -58,7 +58,7 @@ class RightOfWay {
   RightOfWay(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   // Right of way.
-  void Arbitrate(double dt_s);
+  void Arbitrate(double dt_s, std::int64_t turn_ns);
 
  private:
   Reads in_;

@@ -43,6 +43,7 @@ void Simulation::Save(base::StateWriter& writer) const {
     writer.Put("next_ns", flow.next_ns);
   }
   for (const Decided& decided : store.decided) writer.Put("decided", decided);
+  if (!store.decided.empty()) writer.Put("looked_ns", store.looked_ns);
   for (const PastLeaders& past : store.past) writer.Put("past", past);
   store.light_holds.Save(writer);
   SaveRoutes(writer);
@@ -128,7 +129,11 @@ void Simulation::Restore(base::StateReader& reader) {
     reader.Get("given", flow.given);
     reader.Get("next_ns", flow.next_ns);
   }
-  for (Decided& decided : store.decided) reader.Get("decided", decided);
+  for (Decided& decided : store.decided) {
+    reader.Get("decided", decided);
+    if (decided.kept >= static_cast<std::int64_t>(store.agents.size())) decided.kept = -1;
+  }
+  if (!store.decided.empty()) reader.Get("looked_ns", store.looked_ns);
   RestorePast(reader);
   store.light_holds.Restore(reader, map->network->controllers());
   RestoreRoutes(reader);
@@ -152,6 +157,12 @@ void Simulation::Restore(base::StateReader& reader) {
     store.traits[id] = arriving.TraitsFor(id);
   std::erase_if(store.waiting, [&](std::uint32_t id) { return id >= store.agents.size(); });
   signals.FindColours();
+  for (std::uint32_t id = 0; id < store.decided.size(); ++id) {
+    const Agent& agent = store.agents[id];
+    if (!agent.on_road) continue;
+    tracks.LookBelow(id);
+    ways.FindRouteSegments(id, std::max(settings.sight_m, agent.granted_m - agent.o_m));
+  }
   std::fill(step.is_moved.begin(), step.is_moved.end(), 0);
   body_poses.FindPoses();
 }

@@ -40,6 +40,7 @@ struct VehicleStore {
   std::uint64_t next_grant = 1;
   std::uint64_t ended = 0, missed = 0;  // trips; lanes for routes
   std::int64_t time_ns = 0;             // since the beginning
+  std::int64_t looked_ns = -1;          // when all was looked for last; below 0: in every step, or not yet
   std::vector<AgentPose> poses;         // of vehicles on the road, by ascending number
 };
 

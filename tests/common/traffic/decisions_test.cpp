@@ -129,6 +129,56 @@ TEST(Decisions, ALeaderThatBrakesHardIsAnsweredAtOnce) {
   for (const double decide_s : {0.1, 0.5}) EXPECT_GT(least_gap(decide_s), in_every_step - 1.0) << decide_s;
 }
 
+// What is looked for every tenth of a second alone is part of the state, whenever it is saved between, and no number of
+// threads changes it.
+TEST(Decisions, GoOnBetweenTwoLooksWithTheSameBits) {
+  constexpr double kStep_s = 0.01;
+  for (const char* map : {"lights", "ramp"}) {
+    const auto network = lanes::MapNetwork(map);
+    TrafficSettings settings;
+    settings.vehicles = 40, settings.decide_s = 0.1;
+    TrafficModel whole = TrafficModel::Make(settings, network, {}).value();
+    settings.threads = 2;
+    TrafficModel other = TrafficModel::Make(settings, network, {}).value();
+    for (int i = 0; i < 6000; ++i) {
+      if (i % 777 == 776) {
+        base::StateWriter writer;
+        whole.Save(writer);
+        base::StateReader reader(writer.bytes());
+        other.Restore(reader);
+        ASSERT_TRUE(reader.Finish().ok());
+      }
+      whole.Step(kStep_s, {}), other.Step(kStep_s, {});
+      ASSERT_EQ(DigestOf(whole), DigestOf(other)) << map << ": " << i;
+    }
+  }
+}
+
+// A light that turns to amber between two looks takes back reservations before the next one, of those that can stop.
+TEST(Decisions, LightsDoNotWait) {
+  constexpr double kStep_s = 0.01;
+  TrafficSettings settings;
+  settings.vehicles = 40, settings.decide_s = 0.1;
+  TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("lights"), {}).value();
+  int obeyed = 0, brake = 0;
+  for (int i = 1; i <= 12000; ++i) {
+    model.Step(kStep_s, {});
+    if (i % 100 != 2) continue;  // the next look is in the ninth step from now
+    for (const network::Controller& controller : model.graph().network().controllers()) {
+      TrafficModel held = model, free = model;
+      if (!held.HoldLight(controller.id, network::LightColour::kRed, 30.0)) continue;
+      for (int k = 0; k < 3; ++k) held.Step(kStep_s, {}), free.Step(kStep_s, {});
+      for (const AgentPose& pose : model.poses()) {
+        if (held.agent(pose.id).granted_m >= free.agent(pose.id).granted_m) continue;
+        ++obeyed;
+        brake += held.agent(pose.id).desired_mps2 < free.agent(pose.id).desired_mps2 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(obeyed, 3);
+  EXPECT_GT(brake, 3);
+}
+
 // Nothing is hit and no red is crossed, and as much is driven as with decisions in every step.
 TEST(Decisions, HitNothingAndPassNoRed) {
   std::map<double, double> driven_km;  // on all maps, by decide_s

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -37,7 +38,7 @@ TEST(GrantedReach, EndsAtTheNextLine) {
       for (const Agent& agent : copy.store.agents) granted_m.push_back(agent.granted_m);
       copy.seen.bodies.clear();
       copy.observation.See(copy.seen.bodies);
-      copy.right_of_way.Arbitrate(kStep_s);
+      copy.right_of_way.Arbitrate(kStep_s, std::llround(kStep_s * 1e9));
       for (std::uint32_t id = 0; id < granted_m.size(); ++id) {
         const Agent& agent = copy.store.agents[id];
         if (!agent.on_road || !(agent.granted_m > granted_m[id])) continue;
