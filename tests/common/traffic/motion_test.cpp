@@ -228,7 +228,8 @@ TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
 TEST(Motion, PositionAndVelocityAgreeAsVectors) {
   constexpr double kStep_s = 0.01;
   for (const Physics physics : {Physics::kPlanar, Physics::kFull}) {
-    double worst_m = 0.0, by_heading_m = 0.0, by_steering_m = 0.0;
+    double worst_m = 0.0, by_heading_m = 0.0, by_steering_m = 0.0, driven_m = 0.0;
+    std::int64_t compared = 0;
     std::string where;
     for (const std::string& name : lanes::MapNames()) {
       TrafficSettings settings;
@@ -252,6 +253,8 @@ TEST(Motion, PositionAndVelocityAgreeAsVectors) {
             const double way = 0.5 * (pose.speed_mps + last.speed_mps) * kStep_s;
             const Eigen::Vector2d moved = pose.p_WB_W.head<2>() - last.p_W;
             const double error = (moved - way * (course + last.course).normalized()).norm();
+            ++compared;
+            driven_m += moved.norm();
             if (error > worst_m)
               where = fmt::format("{}: car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", name, pose.id, kStep_s * i,
                                   pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
@@ -270,6 +273,8 @@ TEST(Motion, PositionAndVelocityAgreeAsVectors) {
                  physics == Physics::kFull ? "full" : "planar", 1e3 * worst_m, where, 1e3 * by_heading_m,
                  1e3 * by_steering_m);
     EXPECT_LT(worst_m, 1e-3) << where;
+    EXPECT_GT(compared, 100'000);
+    EXPECT_GT(driven_m, 10'000.0);
   }
 }
 

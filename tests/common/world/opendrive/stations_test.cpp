@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/names.hpp"
 
@@ -115,20 +118,43 @@ TEST(Stations, AnIdThatStandsTwiceIsToldWithTheFirstPlace) {
                           "road 1; ids of its own were expected for each"));
 }
 
-// Of the real files two have ids that stand twice, as their authors wrote them; nothing else is told of any.
+// Whether a finding is of where a record or an object begins.
+bool IsOfStations(const Finding& finding) {
+  return finding.rule.ends_with(".s") || finding.rule.ends_with(".s_offset") || finding.rule.ends_with(".first");
+}
+
+// The rules of all kinds of findings have the names by which the next test knows them.
+TEST(Stations, TheirRulesAreKnownByTheirNames) {
+  RoadText behind, lane_behind, late, object;
+  behind.elevation = R"(<elevation s="600" a="0"/>)";
+  lane_behind.right = LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="160" max="10"/>)");
+  late.right = LaneOf(R"(<width sOffset="10" a="3.5"/>)");
+  object.more = R"(<objects><object id="a" type="tree" s="900" t="5"/></objects>)";
+  for (const RoadText& road : {behind, lane_behind, late, object}) {
+    const auto import = Read(Document(road.Text()), "sample.xodr", Tolerance::Unrepaired());
+    ASSERT_TRUE(import.ok());
+    EXPECT_EQ(std::ranges::count_if(import.value().warnings, IsOfStations), 1) << road.Text();
+  }
+}
+
+// Of the real files two have ids that stand twice, as their authors wrote them; no record of any begins elsewhere than
+// on its road.
 TEST(Stations, RealFilesBeginWhereTheirRoadsAre) {
   const auto files = RealFiles();
   if (files.empty()) GTEST_SKIP() << "the real files are not there";
+  std::set<std::pair<std::string, std::string>> twice;  // file and rule
   for (const auto& file : files) {
     const auto import = Load(file, {});
     ASSERT_TRUE(import.ok());
     EXPECT_TRUE(import.value().errors.empty()) << file;
     for (const Finding& warning : import.value().warnings) {
-      const bool is_of_stations =
-          warning.rule.ends_with(".s") || warning.rule.ends_with(".s_offset") || warning.rule.ends_with(".first");
-      EXPECT_FALSE(is_of_stations) << file << ": " << warning.Text();
+      EXPECT_FALSE(IsOfStations(warning)) << file << ": " << warning.Text();
+      if (warning.rule.starts_with("ids.")) twice.emplace(file.stem().string(), warning.rule);
     }
   }
+  EXPECT_THAT(twice, ElementsAre(std::pair("esmini_multi_intersections", "ids.id_unique_in_class.signal"),
+                                 std::pair("esmini_straight_500m_signs", "ids.id_unique_in_class.object"),
+                                 std::pair("esmini_straight_500m_signs", "ids.id_unique_in_class.signal")));
 }
 
 }  // namespace

@@ -101,9 +101,9 @@ bool OnKerb(const World& world, const Eigen::Vector2d& p) {
 }
 
 // The same along a straight walk, each height asked near the one before. Kerbs, and ends of bridges, where one falls
-// off, are passed over.
+// off, are passed over. Adds to `walked_m` how far the walk lies on the ground.
 Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double every_m,
-                  double hint_m) {
+                  double hint_m, double& walked_m) {
   Step greatest;
   const int pieces = static_cast<int>(std::ceil((to - from).norm() / every_m));
   Eigen::Vector2d p = from;
@@ -117,6 +117,7 @@ Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::
     if (step.height_m > greatest.height_m && !OnBridge(world, p) && !OnBridge(world, q) && !OnKerb(world, p) &&
         !OnKerb(world, q))
       greatest = step;
+    walked_m += (q - p).norm();
     p = q;
     at_p = at_q;
   }
@@ -128,13 +129,15 @@ Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::
 TEST(BuiltWorld, TheGroundHasNoSteps) {
   const World& world = *Hilly();
   Step greatest;
+  double walked_m = 0.0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Eigen::Vector2d from(base::RandomUniform({i, 1}, -40.0, 520.0), base::RandomUniform({i, 2}, -160.0, 300.0));
     const double angle = base::RandomUniform({i, 3}, 0.0, 6.28);
     const Step step = GreatestStep(world, from, from + 60.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.02,
-                                   i % 2 == 0 ? -1e9 : 1e9);
+                                   i % 2 == 0 ? -1e9 : 1e9, walked_m);
     if (step.height_m > greatest.height_m) greatest = step;
   }
+  EXPECT_GT(walked_m, 20'000.0) << "of 24 km";
   EXPECT_LE(greatest.height_m, 1e-3) << "at " << greatest.at_W.transpose();
 }
 
@@ -377,15 +380,17 @@ TEST_P(JunctionsOfTheProject, HaveNoSteps) {
     for (const Eigen::Vector2d& corner : junction.outline_W) reach_m = std::max(reach_m, (corner - middle).norm());
     ASSERT_GT(reach_m, 3.0);
     Step greatest;
+    double walked_m = 0.0;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const auto at_random = [&](std::uint64_t what) {
         const double angle = base::RandomUniform({i, what}, 0.0, 2.0 * M_PI),
                      far_m = (reach_m + 5.0) * std::sqrt(base::RandomUniform({i, what + 1}, 0.0, 1.0));
         return Eigen::Vector2d(middle + far_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
       };
-      const Step step = GreatestStep(world, at_random(1), at_random(3), 0.02, kNone);
+      const Step step = GreatestStep(world, at_random(1), at_random(3), 0.02, kNone, walked_m);
       if (step.height_m > greatest.height_m) greatest = step;
     }
+    EXPECT_GT(walked_m, 100.0 * reach_m) << junction.id << ": 200 walks of some " << reach_m << " m";
     EXPECT_LE(greatest.height_m, 1e-3) << junction.id << " at " << greatest.at_W.transpose();
     worst_m = std::max(worst_m, greatest.height_m);
   }
