@@ -170,6 +170,8 @@ TEST(NetworkTraffic, TurnsAreComfortable) {
     }
     EXPECT_LE(lateral, 3.0) << name;
     EXPECT_LE(yaw, kYaw_radps2) << name;
+    EXPECT_GT(lateral, 0.5) << name << " has bends";
+    EXPECT_GT(yaw, 0.01) << name;
     RecordProperty(name + "_lateral_mps2", std::to_string(lateral));
     RecordProperty(name + "_yaw_radps2", std::to_string(yaw));
   }

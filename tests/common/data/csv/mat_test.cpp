@@ -172,6 +172,7 @@ TEST_F(MatTest, MemoryIsBoundedByAPartOfAColumn) {
   EXPECT_GT(words.bytes(), 15'000'000u);
   // The part, what its buffer has room for beyond it, and the list of the pieces.
   EXPECT_LT(most, 2 * SpilledColumn::kPartBytes + 100'000);
+  EXPECT_GT(most, SpilledColumn::kPartBytes / 2);
 }
 
 TEST_F(MatTest, RowsOfASequenceBecomeColumns) {

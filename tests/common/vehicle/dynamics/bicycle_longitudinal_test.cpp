@@ -142,13 +142,16 @@ TEST(BicycleRolling, CoastsDownAsTheClosedFormSays) {
   const double f0 = 0.012 * settings.body.mass_kg * kG_mps2;
   const double k = 0.5 * 1.2 * 0.5;
   double worst = 0.0;
+  int compared = 0;
   Drive(car, ground, InNeutral(), 60.0, [&](int step) {
+    ++compared;
     const double t = step * kStep_s;
     const double v = std::sqrt(f0 / k) *
                      std::tan(std::atan(45.0 * std::sqrt(k / f0)) - t * std::sqrt(f0 * k) / EffectiveMass(settings));
     worst = std::max(worst, std::fabs(car.state().speed_mps() - v));
   });
   EXPECT_LT(worst, 0.05);
+  EXPECT_NEAR(compared, 60.0 / kStep_s, 1.0);
   EXPECT_LT(car.state().speed_mps(), 25.0);
 }
 

@@ -131,15 +131,18 @@ TEST(Hills, PassIntoTheBaseWithoutAKink) {
   spec.columns = 2, spec.rows = 401, spec.spacing_m = 1.0, spec.west_m = 80.0, spec.south_m = 0.0;
   const auto grid = MakeHills(spec, Straight(0.0, 80.0));
   double most = 0.0, most_at_end = 0.0;
+  int at_end = 0;
   for (int row = 1; row + 1 < spec.rows; ++row) {
     const double bend =
         std::fabs(double{grid.Post(0, row - 1)} - 2.0 * double{grid.Post(0, row)} + double{grid.Post(0, row + 1)});
     most = std::max(most, bend);
-    if (row > 174 && row < 186) most_at_end = std::max(most_at_end, bend);
+    if (row > 174 && row < 186) ++at_end, most_at_end = std::max(most_at_end, bend);
   }
   EXPECT_NEAR(grid.Post(0, 0), 79.5, 0.01);
   EXPECT_NEAR(grid.Post(0, 200), 50.0, 1e-5);
   EXPECT_LT(most, 0.02);  // 30 m down over some 120: the slope is 1 in 3 at most
+  EXPECT_GT(most, 0.001);
+  EXPECT_EQ(at_end, 11);
   EXPECT_LT(most_at_end, 0.05 * most);
 }
 

@@ -351,6 +351,7 @@ TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
       EXPECT_EQ(onto_roads, 0) << file.filename();
     }
     EXPECT_LT(edge_m, 0.02) << file.filename();
+    EXPECT_GT(walked_m, 5'000.0) << file.filename();
     RecordProperty(file.stem().string(),
                    fmt::format("{:.1f} km, {} steps that a road has itself, {} onto roads, worst {:.4f} m",
                                1e-3 * walked_m, a_roads, onto_roads, edge_m));

@@ -157,12 +157,15 @@ TEST(Haste, IsAsLongAndCrossedAsItSays) {
   EXPECT_GT(chains[0].length_m, 29'000.0);
   EXPECT_GE(world->network()->junctions().size(), 4u);
   double sharpest = 0.0, steepest = 0.0;
+  int stations = 0;
   for (double at = 0.0; at < chains[0].length_m; at += 1.0) {
     const auto [road, s] = chains[0].At(*world->network(), at);
     if (!road->spec().junction.empty()) continue;  // there the crossing road's height takes part
+    ++stations;
     sharpest = std::max(sharpest, std::fabs(road->axis().Evaluate(s).curvature_1pm));
     steepest = std::max(steepest, std::fabs(road->spec().elevation.Evaluate(s).slope));
   }
+  EXPECT_GT(stations, 28'000);
   EXPECT_LE(sharpest, 1.0 / 249.0);
   EXPECT_LE(steepest, 0.045);
 }
