@@ -39,6 +39,8 @@ const Pattern kSystemTime{std::regex(R"(\bsystem_clock\b|\bstd::time\(|::time\(|
                                      R"(|\blast_write_time\(|\bfile_clock\b)"),
                           {"system_clock", "time(", "gettimeofday", "CLOCK_REALTIME", "file_clock"}};
 const Pattern kSleep{std::regex(R"(\bsleep_for\(|\bsleep_until\(|\busleep\(|\bnanosleep\(|\bsleep\()"), {"sleep"}};
+// In Python and in shell scripts.
+const Pattern kScriptSleep{std::regex(R"(\bsleep [0-9"$]|\btime\.sleep\()"), {"sleep"}};
 
 std::string Trimmed(const std::string& text) {
   const auto begin = text.find_first_not_of(" \t");
@@ -71,6 +73,26 @@ Hits SearchTree(const Pattern& wanted, const std::vector<std::string>& folders =
   return hits;
 }
 
+// The same in the tests that are scripts: .py, or a first line that begins with #!.
+Hits SearchScripts(const Pattern& wanted) {
+  const fs::path root = rodeira::SourceDir();
+  Hits hits;
+  int scripts = 0;
+  for (auto entry = fs::recursive_directory_iterator(root / "tests"); entry != fs::recursive_directory_iterator();
+       ++entry) {
+    if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+    if (!entry->is_regular_file()) continue;
+    std::ifstream in(entry->path());
+    std::string line;
+    std::getline(in, line);
+    if (!line.starts_with("#!") && entry->path().extension() != ".py") continue;
+    ++scripts;
+    Search(in, entry->path().lexically_relative(root).string(), wanted, hits);
+  }
+  EXPECT_GT(scripts, 30);
+  return hits;
+}
+
 // A line with a reason "# …" stands above the lines that it is of; each of these is "path: code".
 Hits ReadList(const std::string& name) {
   Hits listed;
@@ -95,7 +117,11 @@ void ExpectListed(const Hits& found, const std::string& list) {
 
 TEST(Waits, EveryEndlessWaitHasAReason) { ExpectListed(SearchTree(kEndlessWait), "endless_waits.txt"); }
 // A test waits for an event. Where it sleeps all the same, the list says why.
-TEST(Waits, EverySleepOfATestHasAReason) { ExpectListed(SearchTree(kSleep, {"tests"}), "test_sleeps.txt"); }
+TEST(Waits, EverySleepOfATestHasAReason) {
+  Hits found = SearchTree(kSleep, {"tests"});
+  found.merge(SearchScripts(kScriptSleep));
+  ExpectListed(found, "test_sleeps.txt");
+}
 TEST(Waits, EveryUseOfTheSystemTimeHasAReason) { ExpectListed(SearchTree(kSystemTime), "system_time.txt"); }
 
 TEST(Waits, TheyAreFoundHoweverTheyAreWritten) {
@@ -124,6 +150,13 @@ TEST(Waits, TheyAreFoundHoweverTheyAreWritten) {
   EXPECT_TRUE(
       kSleep.IsIn("::usleep"
                   "(100);"));
+  EXPECT_TRUE(
+      kScriptSleep.IsIn("[ -s x ] || sleep"
+                        " 0.5"));
+  EXPECT_TRUE(
+      kScriptSleep.IsIn("time.sleep"
+                        "(0.1)"));
+  EXPECT_FALSE(kScriptSleep.IsIn("a sleep of a test; sleeps 3"));
   EXPECT_FALSE(kSleep.IsIn("RODEIRA_SLEEP_S, asleep()"));
 }
 

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <thread>
 
@@ -98,9 +100,10 @@ class Session : public ::testing::Test {
   void SetUp() override {
     if (!Has("Xvfb") || !Has("xdotool")) GTEST_SKIP() << "the packages xvfb and xdotool are not there";
     const fs::path number = folder_.path() / "display";
-    server_ = std::make_unique<Started>(std::vector<std::string>{
-        "/bin/sh", "-c",
-        "exec Xvfb -noreset -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
+    server_ = std::make_unique<Started>(
+        std::vector<std::string>{"/bin/sh", "-c",
+                                 "exec Xvfb -noreset -displayfd 3 -fbdir " + folder_.path().string() +
+                                     " -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
     ASSERT_TRUE(Until(20s, [&] {
       const auto text = base::ReadText(number);
       if (!text || text.value().find('\n') == std::string::npos) return false;
@@ -134,6 +137,18 @@ class Session : public ::testing::Test {
     return there;
   }
 
+  // Waits until the display shows a window that no longer changes: two looks at its memory are alike.
+  bool IsDrawn(std::chrono::seconds limit) const {
+    std::string before;
+    return Until(limit, [&] {
+      std::ifstream file(folder_.path() / "Xvfb_screen0", std::ios::binary);
+      std::string now{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+      const bool is_drawn = now == before && now.size() - std::ranges::count(now, '\0') > 100'000;
+      before = std::move(now);
+      return is_drawn;
+    });
+  }
+
   base::TemporaryFolder folder_ = base::TemporaryFolder::Make("session").value();
   std::unique_ptr<Started> server_;
   std::string display_;
@@ -151,7 +166,7 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   const std::string runtime = "XDG_RUNTIME_DIR=" + data + "/desk";  // no other run is asked
   Started start({"DISPLAY=:" + display_, "XDG_DATA_HOME=" + data, runtime, "SDL_AUDIODRIVER=dummy", Bin("rodeira")});
   ASSERT_TRUE(Focus("^Rodeira$", 60s)) << "the start window";
-  std::this_thread::sleep_for(1s);
+  ASSERT_TRUE(IsDrawn(60s)) << "the start window is drawn";
   constexpr int kLeft = (kScreenWidth - 820) / 2, kTop = (kScreenHeight - 640) / 2;
   Click(kLeft + 77, kTop + 197);  // start
   ASSERT_TRUE(Until(60s, [&] { return !FilesOn(folder_.path() / "rodeira", ".mcap").empty(); })) << "a recording";
@@ -182,7 +197,6 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
     });
   };
   EXPECT_TRUE(becomes("paused at "));
-  std::this_thread::sleep_for(2s);  // the window has come up with the run: all its pictures are of one moment
   const auto picture = [&]() -> nodes::Image {
     const auto before = FilesOn(pictures, ".png");
     Do({"key", "F12"});
@@ -198,31 +212,40 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
     }
     return {};
   };
-  const nodes::Image plain = picture();
+  // The picture after a hand has changed it, once two in succession are alike. Before the first hand the window comes
+  // up with the run: then all its pictures are of one moment.
+  const auto after = [&](const std::function<void()>& hand, const nodes::Image* before) {
+    hand();
+    nodes::Image last = picture();
+    EXPECT_TRUE(Until(60s, [&] {
+      nodes::Image now = picture();
+      const bool is_still = now.rgb == last.rgb && (before == nullptr || now.rgb != before->rgb);
+      last = std::move(now);
+      return is_still;
+    })) << "a picture that has changed and changes no more";
+    return last;
+  };
+  const nodes::Image plain = after([] {}, nullptr);
   ASSERT_EQ(std::pair(plain.width_px, plain.height_px), std::pair(kWidth, kHeight));
   EXPECT_FALSE(HasLegend(plain));
-  const auto after = [&](const std::function<void()>& hand) {
-    hand();
-    std::this_thread::sleep_for(1s);
-    return picture();
-  };
   const auto click = [&](int y_px) {
     return [this, y_px] { Click(kScreenWidth / 2, (kScreenHeight - kHeight) / 2 + y_px); };
   };
   const auto key = [&](const char* name) { return [this, name] { Do({"key", name}); }; };
   constexpr int kOwnCar = 470, kSky = 20;  // of the camera behind the car
-  const nodes::Image clicked = after(click(kOwnCar));
+  const nodes::Image clicked = after(click(kOwnCar), &plain);
   EXPECT_GT(BehindGlass(plain, clicked), 0.75) << "the panel of the car that was clicked on";
   EXPECT_LT(BehindGlass(plain, plain), 0.05);
   EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 3 * kWidth * 200, clicked.rgb.begin()))
       << "and nothing else above it";
-  EXPECT_EQ(after(click(kSky)).rgb, plain.rgb) << "nobody is chosen";
-  const nodes::Image next = after(key("Tab")), followed = after(click(kSky));
+  EXPECT_EQ(after(click(kSky), &clicked).rgb, plain.rgb) << "no vehicle is chosen";
+  const nodes::Image next = after(key("Tab"), &plain), followed = after(click(kSky), &next);
   EXPECT_GT(BehindGlass(followed, next), 0.75) << "the panel of the vehicle that was chosen by the key";
   EXPECT_NE(followed.rgb, plain.rgb) << "which is still followed";
-  EXPECT_EQ(after(key("shift+Tab")).rgb, plain.rgb) << "home again";
+  EXPECT_EQ(after(key("shift+Tab"), &followed).rgb, plain.rgb) << "home again";
   Do({"key", "F9"});
-  EXPECT_TRUE(HasLegend(after(key("F8")))) << "statistics over the ground, from above";
+  Do({"key", "F8"});
+  EXPECT_TRUE(Until(60s, [&] { return HasLegend(picture()); })) << "statistics over the ground, from above";
   EXPECT_TRUE(becomes("runs "));
   ::kill(start.pid(), SIGINT);
   (void)start.Wait(60s);

@@ -5,9 +5,13 @@
 #include <pthread.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+
+#include <fstream>
+#include <string>
 
 namespace rodeira::dds {
 namespace {
@@ -54,6 +58,19 @@ void DieWith(SharedMutex& mutex) {
   ASSERT_TRUE(WIFSIGNALED(status)) << "it had locked it";
 }
 
+// Waits until a process sleeps, as in a wait for a mutex; false after ten seconds. The state is the first letter behind
+// the name, which is in brackets (proc_pid_stat(5)).
+bool AwaitSleepOf(pid_t process) {
+  for (int i = 0; i < 10'000; ++i, ::usleep(1000)) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string line;
+    std::getline(file, line);
+    const auto name_end = line.rfind(") ");
+    if (name_end != std::string::npos && line.compare(name_end + 2, 1, "S") == 0) return true;
+  }
+  return false;
+}
+
 TEST(RobustMutexes, AreTheOnesOfTheWholeProgram) { EXPECT_TRUE(SharedMutexesAreRobust()); }
 
 TEST(RobustMutexes, AThreadThatLocksAfterAKilledOwnerGoesOn) {
@@ -75,20 +92,26 @@ TEST(RobustMutexes, AWaitingThreadGoesOnWhenTheOwnerDies) {
   SharedMutex mutex;
   int held[2];
   ASSERT_EQ(::pipe(held), 0);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
+  const pid_t owner = ::fork();
+  ASSERT_GE(owner, 0);
+  if (owner == 0) {
     const char word = mutex.TimedLock() == 0 ? 'y' : 'n';
     (void)!::write(held[1], &word, 1);
-    ::usleep(100'000);
-    ::kill(::getpid(), SIGKILL);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    while (true) ::pause();
   }
   char word = 0;
   ASSERT_EQ(::read(held[0], &word, 1), 1);
   ASSERT_EQ(word, 'y');
-  EXPECT_EQ(mutex.TimedLock(), 0);
-  EXPECT_EQ(mutex.Unlock(), 0);
-  ::waitpid(child, nullptr, 0);
+  const pid_t waiting = ::fork();
+  ASSERT_GE(waiting, 0);
+  if (waiting == 0) ::_exit(mutex.TimedLock() == 0 && mutex.Unlock() == 0 ? 0 : 1);
+  EXPECT_TRUE(AwaitSleepOf(waiting));
+  ::kill(owner, SIGKILL);
+  int status = -1;
+  EXPECT_EQ(::waitpid(waiting, &status, 0), waiting);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  ::waitpid(owner, nullptr, 0);
   ::close(held[0]);
   ::close(held[1]);
 }
