@@ -97,9 +97,9 @@ void PlaceOrders::After(TrafficModel& model) {
   };
   const auto done = [&](const PlaceOrder& order) {
     for (std::uint32_t id = 0; id < seen_.size(); ++id) {
-      if ((order.whom == PlaceOrder::Whom::kOne && order.id != id) || !passes(order, id)) continue;
+      if ((order.recipients == PlaceOrder::Recipients::kOne && order.id != id) || !passes(order, id)) continue;
       ApplyOrder(model, id, order.kind, order.value);
-      if (order.whom != PlaceOrder::Whom::kAll) return true;
+      if (order.recipients != PlaceOrder::Recipients::kAll) return true;
     }
     return false;
   };
@@ -115,7 +115,7 @@ void PlaceOrders::Save(base::StateWriter& writer) const {
   std::vector<double> numbers;
   for (const PlaceOrder& order : orders_) {
     words.insert(words.end(), {static_cast<std::uint32_t>(order.kind), order.road,
-                               static_cast<std::uint32_t>(order.whom), order.id});
+                               static_cast<std::uint32_t>(order.recipients), order.id});
     numbers.insert(numbers.end(), {order.value, order.s_m});
   }
   writer.Put("orders", words);
@@ -133,10 +133,10 @@ void PlaceOrders::Restore(base::StateReader& reader, const TrafficModel& model) 
     const std::uint32_t* word = &words[4 * i];
     const bool sound = word[0] <= static_cast<std::uint32_t>(OrderKind::kChangeLane) &&
                        word[1] < model.graph().network().roads().size() &&
-                       word[2] <= static_cast<std::uint32_t>(PlaceOrder::Whom::kAll);
+                       word[2] <= static_cast<std::uint32_t>(PlaceOrder::Recipients::kAll);
     if (!sound || !IsSound(static_cast<OrderKind>(word[0]), numbers[2 * i])) continue;
     orders_.push_back({static_cast<OrderKind>(word[0]), numbers[2 * i], word[1], numbers[2 * i + 1],
-                       static_cast<PlaceOrder::Whom>(word[2]), word[3]});
+                       static_cast<PlaceOrder::Recipients>(word[2]), word[3]});
   }
 }
 

@@ -28,7 +28,7 @@ struct PlaceOrder {
   double value = 0.0;      // m/s², m/s, or a side
   std::uint32_t road = 0;  // index into the network's roads
   double s_m = 0.0;        // of the road's axis
-  enum class Whom : std::uint8_t { kOne = 0, kNext = 1, kAll = 2 } whom = Whom::kNext;
+  enum class Recipients : std::uint8_t { kOne = 0, kNext = 1, kAll = 2 } recipients = Recipients::kNext;
   std::uint32_t id = 0;  // kOne: this agent, when it passes next
 };
 

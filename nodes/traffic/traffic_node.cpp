@@ -255,13 +255,13 @@ class TrafficNode final : public lockstep::Node {
     auto order = traffic::PlaceOrders::At(model_, choice.value().at->road, choice.value().at->s_m);
     if (!order) return order.error().WithContext(where);
     order.value().kind = kind, order.value().value = value;
-    using Whom = traffic::PlaceOrder::Whom;
+    using Recipients = traffic::PlaceOrder::Recipients;
     using Kind = scenario::AgentChoice::Kind;
-    order.value().whom = choice.value().kind == Kind::kAll    ? Whom::kAll
-                         : choice.value().kind == Kind::kNext ? Whom::kNext
-                                                              : Whom::kOne;
-    if (order.value().whom == Whom::kOne && agents.empty()) return {};  // no vehicle was ahead
-    if (order.value().whom == Whom::kOne) order.value().id = agents.front();
+    order.value().recipients = choice.value().kind == Kind::kAll    ? Recipients::kAll
+                               : choice.value().kind == Kind::kNext ? Recipients::kNext
+                                                                    : Recipients::kOne;
+    if (order.value().recipients == Recipients::kOne && agents.empty()) return {};  // no vehicle was ahead
+    if (order.value().recipients == Recipients::kOne) order.value().id = agents.front();
     orders_.Add(order.value());
     return {};
   }

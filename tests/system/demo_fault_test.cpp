@@ -48,9 +48,9 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], signal);
-  const std::string who = node == "clock" ? "the clock" : "node '" + node + "'";
+  const std::string named = node == "clock" ? "the clock" : "node '" + node + "'";
   const auto took =
-      run.WaitFor(who + (signal == SIGKILL ? " was killed by signal 9" : " was stopped by signal 19"), 10s);
+      run.WaitFor(named + (signal == SIGKILL ? " was killed by signal 9" : " was stopped by signal 19"), 10s);
   const Ended ended = run.Wait(20s);
   EXPECT_GE(took, 0ms) << ended.out;
   EXPECT_LE(took, 1000ms) << ended.out;

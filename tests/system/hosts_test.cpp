@@ -88,7 +88,7 @@ class Hosts : public ::testing::Test {
     return WaitForStep(Rig::RunName(), 500) &&
            ProcessesWith("--run " + Rig::RunName(), "bin/rodeira-empty").size() == 4;
   }
-  void ExpectNobodyLeft() const { EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira").empty()); }
+  void ExpectNoProcessLeft() const { EXPECT_TRUE(ProcessesWith("--run " + Rig::RunName(), "bin/rodeira").empty()); }
 
   const cli::TemporaryFolder folder_;
   std::unique_ptr<Rig> rig_;
@@ -230,7 +230,7 @@ TEST_F(Hosts, CtrlCAtTheClockEndsBothInOrder) {
   EXPECT_EQ(here.status, 0) << here.out;
   EXPECT_EQ(there.status, 0) << there.out;
   EXPECT_EQ(here.out, there.out);
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, CtrlCAtTheSecondPcIsNamedOnBoth) {
@@ -243,7 +243,7 @@ TEST_F(Hosts, CtrlCAtTheSecondPcIsNamedOnBoth) {
     EXPECT_EQ(ended.status, 1) << ended.out;
     EXPECT_NE(ended.out.find("it was stopped by a signal (host 'right')"), std::string::npos) << ended.out;
   }
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
@@ -260,7 +260,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
   EXPECT_GE(right->WaitForLine("node 'c' … signal 9", 1s), 0ms);
   EXPECT_EQ(left->Wait(10s).status, 1);
   EXPECT_EQ(right->Wait(10s).status, 1);
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
@@ -285,7 +285,7 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
   EXPECT_EQ(DigestIn(here.out), DigestIn(alone.out)) << here.out;
   EXPECT_EQ(DigestIn(there.out), DigestIn(alone.out)) << there.out;
   EXPECT_EQ(FirstDifference(SamplesOf(one), SamplesOf(two)), "");
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, APulledCableEndsBoth) {
@@ -301,7 +301,7 @@ TEST_F(Hosts, APulledCableEndsBoth) {
   EXPECT_NE(there.out.find("the clock has sent nothing for 3.0 s: it was killed, stopped or cut off"),
             std::string::npos)
       << there.out;
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, WrongInputOfANodeOnTheSecondPcIsStatusTwoOnBoth) {
@@ -315,7 +315,7 @@ TEST_F(Hosts, WrongInputOfANodeOnTheSecondPcIsStatusTwoOnBoth) {
               std::string::npos)
         << ended.out;
   }
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, ThePcThatComesTwiceIsRefused) {
@@ -340,7 +340,7 @@ TEST_F(Hosts, PcsThatDoNotMeanTheSameRunAreRefused) {
     EXPECT_EQ(ended.status, 2) << ended.out;
     EXPECT_NE(ended.out.find("was refused: its roster hash is "), std::string::npos) << ended.out;
   }
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
@@ -356,7 +356,7 @@ TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
   const Ended& refused = first.status == 0 ? second : first;
   const pid_t holder = processes[first.status == 0 ? 0 : 1];
   EXPECT_THAT(refused.out, HasLine("host 'right' … already … process " + std::to_string(holder)));
-  ExpectNobodyLeft();
+  ExpectNoProcessLeft();
 }
 
 // --- observers (law L5) ---

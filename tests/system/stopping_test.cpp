@@ -43,8 +43,8 @@ bool Touch(const Box& a, const Box& b) {
 }
 
 // All at one time: the wreck, the autopilot's car, the agents.
-std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleState& ego,
-                           const msg::TrafficState& traffic) {
+std::vector<Box> AllBoxes(const msg::VehicleState& wreck, const msg::VehicleState& ego,
+                          const msg::TrafficState& traffic) {
   std::vector<Box> boxes{BoxOf(wreck), BoxOf(ego)};
   for (const auto& agent : traffic.agents()) boxes.push_back(BoxOf(agent));
   return boxes;
@@ -67,7 +67,7 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
 
   double fastest = 0.0, hardest = 0.0;
   for (std::size_t k = 0; k < traffic.size(); ++k) {
-    const auto all = Everybody(wreck[10 * k], ego[10 * k], traffic[k]);
+    const auto all = AllBoxes(wreck[10 * k], ego[10 * k], traffic[k]);
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         ASSERT_FALSE(Touch(all[i], all[j])) << i << " and " << j << " at step " << 10 * k;
@@ -81,7 +81,7 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
 
   // At the end: the wreck, behind it the queue, all at rest, each behind the one before it.
   std::vector<Box> queue;
-  for (const Box& box : Everybody(wreck.back(), ego.back(), traffic.back())) {
+  for (const Box& box : AllBoxes(wreck.back(), ego.back(), traffic.back())) {
     if (box.in_lane() && box.front_m <= 700.0 + Double(wreck[0].front_m()) + 0.1) queue.push_back(box);
   }
   std::ranges::sort(queue, std::greater<>(), &Box::front_m);

@@ -28,11 +28,11 @@ std::vector<double> DracSeries(Series gap_m, Series own_mps, Series leader_mps);
 // Time exposed: the time in which TTC is below the threshold, s; and the integral of threshold - TTC over it, s^2
 // (Minderhoud & Bovy 2001). n counts the samples with a leader; without one both are missing.
 Measure TimeExposedTtc(Series ttc_s, Series gap_m, double rate_hz, double threshold_s);
-// The integral, s^2.
+// The time integral of (threshold - TTC) while TTC is below the threshold, s^2 (Minderhoud and Bovy 2001).
 Measure TimeIntegratedTtc(Series ttc_s, Series gap_m, double rate_hz, double threshold_s);
 // The least TTC, and the mean of 1/TTC with 0 where the vehicle does not close in. Missing without a leader.
 Measure LeastTtc(Series ttc_s, Series gap_m);
-// In 1/s.
+// The mean of 1/TTC, 1/s; 0 where the vehicle does not close in.
 Measure MeanInverseTtc(Series ttc_s, Series gap_m);
 
 }  // namespace rodeira::measures

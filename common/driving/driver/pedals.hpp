@@ -21,7 +21,7 @@ struct PedalSettings {
 };
 
 // A foot that makes the car accelerate as wanted: a guess of throttle or brake from the car's rough measures, corrected
-// by what the speed does. Holds with the brake while standing.
+// by what the speed does. While the car stands, the brake holds it.
 class Pedals {
  public:
   static constexpr double kGoes_mps2 =

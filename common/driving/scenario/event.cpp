@@ -64,7 +64,7 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
   AgentChoice choice;
   constexpr std::string_view kAt = " at ";
   const std::size_t at = text.find(kAt);
-  const std::string_view whom = text.substr(0, at);
+  const std::string_view selector = text.substr(0, at);
   if (at != std::string_view::npos) {
     const std::string_view place = text.substr(at + kAt.size());
     const std::size_t space = place.rfind(' ');
@@ -78,18 +78,18 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
     }
     choice.at = AgentChoice::At{std::string(place.substr(0, space)), *station};
   }
-  if (whom == "next" && !choice.at)
+  if (selector == "next" && !choice.at)
     return base::WrongInput("scenario.wrong_text",
                             "'next' needs a place; the next agent that comes there is taken, as in 'next at main 350'");
-  if (whom == "all" || whom == "ahead" || whom == "next") {
-    choice.kind = whom == "all"     ? AgentChoice::Kind::kAll
-                  : whom == "ahead" ? AgentChoice::Kind::kAhead
-                                    : AgentChoice::Kind::kNext;
+  if (selector == "all" || selector == "ahead" || selector == "next") {
+    choice.kind = selector == "all"     ? AgentChoice::Kind::kAll
+                  : selector == "ahead" ? AgentChoice::Kind::kAhead
+                                        : AgentChoice::Kind::kNext;
     return choice;
   }
-  const auto [end, problem] = std::from_chars(whom.data(), whom.data() + whom.size(), choice.id);
-  if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMaxAgents) {
-    return base::WrongInput("scenario.wrong_text", "'" + std::string(whom.substr(0, 40)) +
+  const auto [end, problem] = std::from_chars(selector.data(), selector.data() + selector.size(), choice.id);
+  if (problem != std::errc{} || end != selector.data() + selector.size() || choice.id >= kMaxAgents) {
+    return base::WrongInput("scenario.wrong_text", "'" + std::string(selector.substr(0, 40)) +
                                                        "' is no agent; its number, all or ahead was expected");
   }
   return choice;

@@ -12,7 +12,7 @@
 namespace rodeira::dds {
 
 ClockGate::ClockGate(ClockRun& run, std::uint64_t clock_id)
-    : run_(run), clock_id_(clock_id), who_(run.roster.nodes().size()) {
+    : run_(run), clock_id_(clock_id), processes_(run.roster.nodes().size()) {
   for (lockstep::NodeIndex n = 0; n < run.roster.nodes().size(); ++n) expected_.push_back(OwnHello(run.launch, n));
 }
 
@@ -86,8 +86,8 @@ base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport&
 // said anything else; a first report that is a failure is not the node's process yet.
 base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& named) {
   if (named.hello.pid == 0) return {};  // of the follower on the node's PC
-  const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
-  Who& known = who_[node];
+  const ProcessIdentity now{named.report.incarnation, named.hello.host, named.hello.pid};
+  ProcessIdentity& known = processes_[node];
   if (named.report.phase >= lockstep::Phase::kFailed && known.incarnation != now.incarnation) return {};
   if (named.report.phase >= lockstep::Phase::kFailed && known.pid == 0) return {};
   if (known.pid == 0 || known.incarnation < now.incarnation) known = now;

@@ -27,10 +27,10 @@ class ClockGate {
   // Nodes that were lost by their own word or by that of another PC, each once.
   std::vector<LostNode> TakeLost();
   // Another process will say that it is this node.
-  void ExpectRestart(lockstep::NodeIndex node) { who_[node] = {}; }
+  void ExpectRestart(lockstep::NodeIndex node) { processes_[node] = {}; }
 
  private:
-  struct Who {
+  struct ProcessIdentity {
     std::uint32_t incarnation = 0;
     std::string host;
     std::uint32_t pid = 0;
@@ -45,7 +45,7 @@ class ClockGate {
   std::vector<Hello> expected_;  // by node: what this program would say as that node
   base::Digest world_ = 0;       // of the first node that has one
   std::uint64_t clock_id_;
-  std::vector<Who> who_;  // by node
+  std::vector<ProcessIdentity> processes_;  // by node
   std::string refusal_;
   std::vector<LostNode> lost_;
 };

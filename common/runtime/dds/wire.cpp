@@ -175,13 +175,13 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   if (payload.size() >= 12 && FirstMember(payload) != ReportHash()) {
     const auto identity = idl::Decode<msg::NodeIdentity>(payload);
     if (!identity) return Unreadable(identity.error());
-    const msg::NodeIdentity& who = identity.value();
+    const msg::NodeIdentity& node = identity.value();
     return base::WrongInput("dds.node_refused",
                             fmt::format("node '{}' (process {} on host {}) was refused: its type of topic {} differs "
                                         "from the clock's: its hash is {}, "
                                         "the clock's is {}; all programs of a run need the same version of Rodeira",
-                                        who.node(), who.pid(), who.host(), idl::topics::kReport,
-                                        base::Hex(who.report_hash()), base::Hex(ReportHash())));
+                                        node.node(), node.pid(), node.host(), idl::topics::kReport,
+                                        base::Hex(node.report_hash()), base::Hex(ReportHash())));
   }
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return Unreadable(decoded.error());

@@ -94,10 +94,10 @@ class ShuffledRun {
       Say(sample, [&](NodeIndex n) { return !GetsSampleBatches(run.roster_, sample.source(), n); });
       return {};
     }
-    template <class Whom>
-    void Say(const Sample& sample, Whom whom) {
+    template <class Receives>
+    void Say(const Sample& sample, Receives receives) {
       for (const NodeIndex n : run.consumers_[sample.source()]) {
-        if (whom(n)) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
+        if (receives(n)) run.in_flight_.push_back({.kind = Message::Kind::kSample, .to = n, .sample = sample});
       }
     }
     void SendNack(const Gap& gap) override {
@@ -116,10 +116,10 @@ class ShuffledRun {
       run.in_flight_.push_back({.kind = Message::Kind::kReport, .report = said});
     }
     void Answer(const Gap& gap) {
-      const auto anybody = [](NodeIndex) { return true; };
-      for (const Sample& sample : kept.From(gap)) Say(sample, anybody);
+      const auto all_nodes = [](NodeIndex) { return true; };
+      for (const Sample& sample : kept.From(gap)) Say(sample, all_nodes);
       if (!archive) return;
-      for (const Sample& sample : archive->From(gap)) Say(sample, anybody);
+      for (const Sample& sample : archive->From(gap)) Say(sample, all_nodes);
     }
     void Keep(const Snapshot& snapshot) override {
       if (run.settings_.on_snapshot) run.settings_.on_snapshot(snapshot);

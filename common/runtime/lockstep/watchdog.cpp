@@ -40,7 +40,7 @@ void Watchdog::ExpectRestart(NodeIndex node, std::int64_t now_ms) {
   incarnations_[node] = {};
   incarnations_[node].report.incarnation = incarnation;
   first_ms_ = now_ms;
-  everybody_ready_ = false;
+  all_ready_ = false;
   recovering_ = true;
 }
 
@@ -123,8 +123,8 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
                          static_cast<double>(settings_.start_ms) / 1e3)};
     }
   }
-  everybody_ready_ = everybody_ready_ || missing.empty();
-  if (!everybody_ready_ && now_ms - *first_ms_ > settings_.start_ms) {
+  all_ready_ = all_ready_ || missing.empty();
+  if (!all_ready_ && now_ms - *first_ms_ > settings_.start_ms) {
     const auto late = std::find_if(incarnations_.begin(), incarnations_.end(), [](const Incarnation& incarnation) {
       return !incarnation.heard || incarnation.report.phase < Phase::kReady;
     });

@@ -64,7 +64,7 @@ class Watchdog {
   std::vector<Incarnation> incarnations_;
   std::optional<std::int64_t> first_ms_;
   std::int64_t checked_ms_ = 0;
-  bool everybody_ready_ = false;
+  bool all_ready_ = false;
   bool recovering_ = false;
 };
 

@@ -8,7 +8,7 @@
 
 namespace rodeira::traffic {
 
-// The straight line to the look-ahead point of MOTORS' driver, at the height of his car.
+// The straight line to the look-ahead point of MOTORS' driver, at the height of the car.
 struct MotorsLook {
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
   double z_m = 0.0;

@@ -17,7 +17,7 @@ struct AgentDetail {
   double target_mps = 0.0;                             // what it plans for here and now, whatever is ahead
   Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // on its path, the point that it steers for
   double path_heading_rad =
-      0.0;  // of its path beside its rear axle; of MOTORS' driver from one point of his trajectory to the next
+      0.0;  // of its path beside its rear axle; of MOTORS' driver from one point of its trajectory to the next
   Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where it looks for what slows it
 };
 

@@ -76,9 +76,9 @@ struct StudyMoment {
 // Runs the model without any network or node. `watch`, where there is one, sees the beginning and every watch_s.
 base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
                                    const std::function<void(const StudyMoment&)>& watch = {});
-// The same on a world's roads and ground, with nobody beginning where a driver's car would (KeptClear): to the bit what
-// a traffic node with these settings publishes in a run of that world, as long as it meets no other vehicle and is told
-// nothing.
+// The same on a world's roads and ground, with no vehicle beginning where a driver's car would (KeptClear): to the bit
+// what a traffic node with these settings publishes in a run of that world, as long as it meets no other vehicle and is
+// told nothing.
 base::Result<StudyResult> RunStudy(const StudySettings& settings, const std::shared_ptr<const road::World>& world,
                                    const std::function<void(const StudyMoment&)>& watch = {});
 

@@ -50,7 +50,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
   const auto x = [&](double t) { return kPlotLeft_px + kPlotWidth_px * t / std::max(last_s_, 1e-9); };
   const auto y = [&](double d) { return kPlotTop_px + kPlotHeight_px * (1.0 - d / length); };
   std::set<std::uint32_t> here;
-  for (const auto& [who, points] : ways_) here.insert(who.first);
+  for (const auto& [vehicle, points] : ways_) here.insert(vehicle.first);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' "
       "font-family='sans-serif' font-size='12'>\n"
@@ -68,7 +68,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
                        kPlotLeft_px - 6.0, y(0.25 * k * length) + 4.0, 0.25 * k * length);
   }
   svg += "<g fill='none' stroke-width='1'>\n";
-  for (const auto& [who, points] : ways_) {
+  for (const auto& [vehicle, points] : ways_) {
     for (std::size_t i = 0; i + 1 < points.size();) {
       const int shade = ShadeAt(points[i].speed_mps, limit);
       const auto goes_on = [&points = points](std::size_t k) {

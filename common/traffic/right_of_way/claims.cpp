@@ -126,7 +126,7 @@ void Claims::ComeLater(std::uint32_t id) {
 
 void Claims::OthersAtZones() {
   if (!in_.any_block) return;
-  const auto nobody = static_cast<std::uint32_t>(out_.agents.size());
+  const auto no_agent = static_cast<std::uint32_t>(out_.agents.size());
   for (std::uint32_t track = 0; track < in_.blocks.size(); ++track) {
     for (const Block& block : in_.blocks[track]) {
       for (const lanes::ZoneSide& part : in_.map.zones.Of(track)) {
@@ -136,7 +136,7 @@ void Claims::OthersAtZones() {
             std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2)
           continue;
         if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
-        out_.book.Hold(part.zone, mine, {nobody});
+        out_.book.Hold(part.zone, mine, {no_agent});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
       // Where it goes is not known: it comes to all zones within kBodyHorizon_s, on every way; but not past a light
@@ -157,7 +157,7 @@ void Claims::OthersAtZones() {
               zone.in_m[mine] > stops_m)
             continue;
           out_.book.Come(part.zone, mine,
-                         {nobody, 0.0, 0.0, way / block.span.speed_mps,
+                         {no_agent, 0.0, 0.0, way / block.span.speed_mps,
                           (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + in_.map.graph[at.track].length_m();

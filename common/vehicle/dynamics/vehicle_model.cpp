@@ -105,7 +105,7 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   for (const ModelKind& kind : kinds) {
     if (kind.name != own) continue;
     std::unique_ptr<VehicleModel> model = kind.make(root);
-    // Keys that a broken file keeps the reader from asking for are no news to the user: his first problem is.
+    // A wrong file ends the reading early: then the keys that were not read are no problem, only the first error is.
     if (const base::Status status = file.value().Finish(); !status) return status.error();
     if (kind.complete) {
       if (const base::Status status = kind.complete(*model, root); !status) {

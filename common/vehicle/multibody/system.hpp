@@ -87,7 +87,7 @@ class System {
   base::Status FindVelocities();
   // Accelerations and multipliers that belong to position and velocity. False where the equations are singular.
   [[nodiscard]] bool FindAccelerations();
-  // All four.
+  // Assemble, CheckIndependence, FindVelocities and FindAccelerations, one after the other.
   base::Status Start();
 
   // Coordinates and velocities in dt_s if the accelerations stay as they are: what a load that must be set before a
@@ -107,7 +107,7 @@ class System {
   const Constraints& constraints() const { return constraints_; }
   const BlockLdlt& matrix() const { return matrix_; }
   double time_s() const { return time_s_; }
-  // For laws of time; position and velocity stay as they are.
+  // Sets the time that laws of time see. Position and velocity stay as they are.
   void set_time_s(double time_s) { time_s_ = time_s; }
   std::span<double> q() { return q_; }
   std::span<const double> q() const { return q_; }
@@ -121,12 +121,12 @@ class System {
   // qdd() as it has been projected: M qdd + Φqᵀ multipliers = Q. After Restore: from the next step on.
   std::span<const double> multipliers() const { return reactions_; }
   // Accelerations and multipliers that belong to position and velocity, solved anew; the state stays as it is.
-  // multipliers() contains the weight of the constraints' violation, which rounding of positions far from the origin
-  // makes: some 100 N at 5 km. These have none of it. False where the equations are singular.
+  // multipliers() contains the weight of the constraints' violation, which grows with the rounding of positions far
+  // from the origin. These have none of it. False where the equations are singular.
   [[nodiscard]] bool FindBalance(Balance& balance);
-  // J, of the velocities now.
+  // The kinetic energy of the velocities now, J.
   double KineticEnergy() const;
-  // Of weight and of the loads that have one.
+  // The potential energy of the weight and of the loads that have one, J.
   double PotentialEnergy() const;
   double Energy() const { return KineticEnergy() + PotentialEnergy(); }
   // Largest |Φ| and |Φq qd + Φt| now.

@@ -23,7 +23,7 @@ std::optional<std::string> PutLight(network::RoadSpec& spec, network::End end) {
   const network::LaneSection& section = starts ? spec.sections.front() : spec.sections.back();
   const int outermost = right_side ? -static_cast<int>(section.right.size()) : static_cast<int>(section.left.size());
   const double s = starts ? kLine_m : spec.length_m - kLine_m;
-  bool anybody = false;
+  bool has_incoming = false;
   for (const auto* side : {&section.left, &section.right}) {
     for (const network::Lane& lane : *side) {
       const int incoming = starts ? -1 : 1;
@@ -33,12 +33,12 @@ std::optional<std::string> PutLight(network::RoadSpec& spec, network::End end) {
                    outer = EdgeOf(spec, lane.id).Value(s);
       const double width = std::fabs(outer - inner);
       if (width < 1.0) continue;
-      anybody = true;
+      has_incoming = true;
       spec.lines.push_back(
           {s - 0.5 * kWide_m, s + 0.5 * kWide_m, Constant(0.5 * (inner + outer)), width - 0.2, 0.0, 0.0, "white"});
     }
   }
-  if (!anybody) return std::nullopt;
+  if (!has_incoming) return std::nullopt;
   network::Signal signal;
   signal.id = fmt::format("{}-{}-light", spec.id, starts ? "start" : "end");
   signal.name = "light";

@@ -127,8 +127,9 @@ bool IsDrivable(LaneType type) {
 bool OpenToCars(const Lane& lane) {
   return std::none_of(lane.access.begin(), lane.access.end(), [](const LaneAccess& access) {
     const bool names_cars =
-        std::any_of(access.restrictions.begin(), access.restrictions.end(),
-                    [](const std::string& who) { return who == "passengerCar" || who == "autonomousTraffic"; });
+        std::any_of(access.restrictions.begin(), access.restrictions.end(), [](const std::string& participant) {
+          return participant == "passengerCar" || participant == "autonomousTraffic";
+        });
     return (access.rule == "deny" && names_cars) ||
            (access.rule == "allow" && !access.restrictions.empty() && !names_cars);
   });

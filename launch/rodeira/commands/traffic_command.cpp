@@ -108,12 +108,12 @@ void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, co
   const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
   fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres,
              r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
-  const auto who = [](double time_s, std::uint32_t id) {
+  const auto stand = [](double time_s, std::uint32_t id) {
     return time_s > 0.0 ? fmt::format("{:.1f} s (car {})", time_s, id) : std::string("0.0 s");
   };
   fmt::print("standing         {:.1f} % of the time, at most {}, with room ahead {}\n",
-             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, who(r.longest_stand_s, r.longest_stand_id),
-             who(r.longest_with_room_s, r.longest_with_room_id));
+             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, stand(r.longest_stand_s, r.longest_stand_id),
+             stand(r.longest_with_room_s, r.longest_with_room_id));
   fmt::print(
       "hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in "
       "all\n",

@@ -35,18 +35,18 @@ std::optional<std::size_t> Find(const std::vector<Pose>& poses, std::uint64_t id
 }  // namespace
 
 void Chosen::Choose(const scene::SceneSnapshot& moment, std::optional<std::size_t> number) {
-  who_.reset();
+  vehicle_.reset();
   if (!number) return;
   const std::size_t cars = moment.cars.size();
   if (*number < cars) {
     const scene::CarPose& car = moment.cars[*number];
-    who_ = Who{true, car.id};
+    vehicle_ = Vehicle{true, car.id};
     since_ns_ = moment.time_ns;
     since_l_ = car.fuel_used_l;
     since_m_ = car.odometer_m;
   } else if (*number - cars < moment.agents.size()) {
     const scene::AgentPose& agent = moment.agents[*number - cars];
-    who_ = Who{false, agent.id};
+    vehicle_ = Vehicle{false, agent.id};
     since_ns_ = seen_ns_ = moment.time_ns;
     since_l_ = agent.detail ? agent.detail->fuel_used_l : 0.0;
     seen_W_ = agent.p_WB_W;
@@ -55,16 +55,16 @@ void Chosen::Choose(const scene::SceneSnapshot& moment, std::optional<std::size_
 }
 
 std::optional<std::size_t> Chosen::In(const scene::SceneSnapshot& moment) const {
-  if (!who_) return std::nullopt;
-  if (who_->is_car) return Find(moment.cars, who_->id);
-  const auto found = Find(moment.agents, who_->id);
+  if (!vehicle_) return std::nullopt;
+  if (vehicle_->is_car) return Find(moment.cars, vehicle_->id);
+  const auto found = Find(moment.agents, vehicle_->id);
   return found ? std::optional(moment.cars.size() + *found) : std::nullopt;
 }
 
 std::string Chosen::Panel(const scene::SceneSnapshot& moment) {
   const auto at = In(moment);
   if (!at) return "";
-  if (!who_->is_car) return AgentPanel(moment, moment.agents[*at - moment.cars.size()]);
+  if (!vehicle_->is_car) return AgentPanel(moment, moment.agents[*at - moment.cars.size()]);
   const scene::CarPose& car = moment.cars[*at];
   if (moment.time_ns < since_ns_ || car.odometer_m < since_m_) Choose(moment, at);  // a person went back in a recording
   const double driven_m = car.odometer_m - since_m_;

@@ -22,11 +22,11 @@ class Chosen {
 
  private:
   std::string AgentPanel(const scene::SceneSnapshot& moment, const scene::AgentPose& agent);
-  struct Who {
+  struct Vehicle {
     bool is_car = false;
     std::uint64_t id = 0;
   };
-  std::optional<Who> who_;
+  std::optional<Vehicle> vehicle_;
   // Since when its mean consumption is counted.
   std::int64_t since_ns_ = 0;
   double since_l_ = 0.0, since_m_ = 0.0;

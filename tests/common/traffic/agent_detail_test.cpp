@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of a driver is where his car's geometry and his own laws put it: on a circle all of it is known.
+// Published details of a driver model follow from the car's geometry and the model's laws: on a circle all are known.
 #include <gtest/gtest.h>
 
 #include <algorithm>

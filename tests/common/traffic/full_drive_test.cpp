@@ -158,7 +158,7 @@ struct RealDrive {
   double duration_s, foot_mps2, least_km;
 };
 
-// Nobody touches anybody, no wheel leaves the road, and the foot brakes as a driver's does.
+// No vehicle touches another, no wheel leaves the road, and the foot brakes as a driver's does.
 void DriveAFile(const std::string& name, const std::vector<RealDrive>& runs) {
   const auto files = opendrive::RealFiles();
   if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";

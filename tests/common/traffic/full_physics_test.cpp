@@ -270,7 +270,7 @@ TEST(FullPhysics, ClimbsWithTheThrottleOfTheClosedForm) {
   EXPECT_GE(compared, 20);
 }
 
-// Nobody touches anybody, leaves the lanes, drives in an emergency, or asks the brake for more than a driver does;
+// No vehicle touches another, leaves the lanes, drives in an emergency, or brakes harder than a driver does;
 // stops are let go of by the planned jerk, though cars do not do exactly what they are asked.
 TEST(FullPhysics, DrivesTheProjectsMaps) {
   for (const std::string& map : lanes::MapNames()) {
@@ -354,8 +354,8 @@ TEST(FullPhysics, LongBodiesDriveTheProjectsMaps) {
   }
 }
 
-// While it brakes a car is within 0.4 m/s of the speed that its driver's wishes lead to, and what he wishes changes by
-// the planned jerk down to where the foot ends the stop.
+// While it brakes a car is within 0.4 m/s of the speed that its desired acceleration leads to, which changes by the
+// planned jerk down to where the foot ends the stop.
 TEST(FullPhysics, DesiredAccelerationChangesByThePlannedJerk) {
   TrafficModel model = TrafficModel::Make(Full(24), lanes::MapNetwork("crossing"), {}).value();
   std::vector<double> before(model.vehicles()), lags;

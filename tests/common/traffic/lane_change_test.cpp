@@ -20,7 +20,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kRadius_m = 500.0, kLaneWidth_m = 3.5, kLimit_mps = 30.0, kRound = 2.0 * std::numbers::pi,
-                 kNobody_m = 1e9;
+                 kNoLeader_m = 1e9;
 constexpr double kExact_mps2 =
     1e-3;  // what a centimetre of gap makes at most: poses are of the middle between the axles
 
@@ -80,8 +80,8 @@ class RingSeen {
     for (const Seen* near : {leader, then_leader, old_follower, new_follower}) {
       if (near != nullptr && near->changing) return {{}, false, false, 0.0};
     }
-    const double gap = leader == nullptr ? kNobody_m : Gap(me, *leader, me.lane),
-                 then_gap = then_leader == nullptr ? kNobody_m : Gap(me, *then_leader, other);
+    const double gap = leader == nullptr ? kNoLeader_m : Gap(me, *leader, me.lane),
+                 then_gap = then_leader == nullptr ? kNoLeader_m : Gap(me, *then_leader, other);
     const double a_c = Idm(me, leader, gap), then_c = Idm(me, then_leader, then_gap);
     double a_o = 0.0, then_o = 0.0, a_n = 0.0, then_n = 0.0;
     if (old_follower != nullptr) {
@@ -352,7 +352,7 @@ TEST(LaneChange, AfterALaneChangeTheOldLaneIsClearOnTheNextRoadToo) {
       if (goes_over && agent.o_m + half_m > agent.change.to_m && agent.path.size() > 1 &&
           agent.path.back().begin_m > agent.change.to_m)
         ++came_onto_it;
-      ASSERT_EQ(model.GapAhead(0), kNobody_m)
+      ASSERT_EQ(model.GapAhead(0), kNoLeader_m)
           << before_m << " m before the road's end, at " << PoseOf(model, 0)->p_WB_W.x() << " m";
       ASSERT_FALSE(model.Hurries(0)) << before_m;
     }

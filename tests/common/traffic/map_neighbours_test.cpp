@@ -169,12 +169,12 @@ Drive DriveOn(const NetworkPointer& network, int threads = 1) {
   const auto result = RunStudy(settings, network, [&](const StudyMoment& moment) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::int32_t> now;
     for (const AgentPose& pose : moment.model.poses()) {
-      const std::pair who(pose.id, pose.trip);
-      now[who] = pose.road;
+      const std::pair trip(pose.id, pose.trip);
+      now[trip] = pose.road;
       const auto is_north = [&](std::int32_t road) {
         return std::stoi(network->roads()[static_cast<std::size_t>(road)].id()) % 2 == 0;
       };
-      if (const auto before = on.find(who); before != on.end() && is_north(before->second) != is_north(pose.road))
+      if (const auto before = on.find(trip); before != on.end() && is_north(before->second) != is_north(pose.road))
         ++drive.changes;
     }
     on = std::move(now);

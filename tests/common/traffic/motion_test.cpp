@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person who sits in a car of traffic feels along his way, from the published accelerations.
+// What a passenger of a car of traffic feels along the way, from the published accelerations.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -135,7 +135,7 @@ TEST(Motors, DrivesAloneToItsLimit) {
     fastest = std::max(fastest, model.poses()[0].speed_mps);
     aside = std::max(aside, std::fabs(model.poses()[0].p_WB_W.y() + 1.75));
     if (model.poses()[0].speed_mps < 16.0 || model.poses()[0].p_WB_W.x() > 7900.0) continue;
-    const AgentDetail detail = model.Details()[0];  // what is published of him is his own, not the other drivers'
+    const AgentDetail detail = model.Details()[0];  // published are this driver model's values, not the default one's
     ASSERT_NEAR(detail.target_mps, 17.0, 1e-9);
     const Eigen::Vector3d& at_W = model.poses()[0].p_WB_W;
     ASSERT_NEAR(detail.look_ahead_W.x() - at_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
@@ -153,8 +153,8 @@ TEST(Motors, DrivesAloneToItsLimit) {
   EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what it is beside its trajectory
 }
 
-// On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody
-// (NetworkTraffic).
+// On the maps MOTORS' driver drives through to the end and runs into vehicles that it does not see. The default driver
+// runs into none (NetworkTraffic).
 TEST(Motors, DrivesTheMapsAndItsCollisionsAreCounted) {
   std::int64_t collisions = 0;
   for (const char* name : {"crossing", "roundabout", "town"}) {

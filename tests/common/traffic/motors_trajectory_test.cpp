@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where MOTORS' driver steers for, and to whom he gives way: against points and rules worked out by hand.
+// Where MOTORS' driver steers for and to which vehicles it gives way: against points and rules worked out by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,7 +101,7 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
   EXPECT_EQ(laps, 3u);
   EXPECT_GT(compared, 5000);
   EXPECT_GT(nearer, 4000);
-  EXPECT_LT(farthest, 0.5) << "he drives along it";
+  EXPECT_LT(farthest, 0.5) << "the car drives along it";
 }
 
 // A.71: a tenth more of throttle below the speed at which the engine would stall, also while it stops; the clutch comes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two streets in a row in which nobody can pass who comes: longer, both of them, than a driver sees at rest.
+// Two streets in a row that are too narrow for oncoming vehicles: both are longer than a driver sees at rest.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -27,7 +27,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kStep_s = 0.05, kSame_m = 1e-6, kNobody_m = 1e9, kLookedAt_m = 200.0;
+constexpr double kStep_s = 0.05, kSame_m = 1e-6, kNoLeader_m = 1e9, kLookedAt_m = 200.0;
 
 // A track on a vehicle's way, in its odometer.
 struct Part {
@@ -106,7 +106,7 @@ class Drive {
 };
 
 struct Found {
-  double gap_m = kNobody_m, speed_mps = 0.0;
+  double gap_m = kNoLeader_m, speed_mps = 0.0;
   std::int64_t id = -1;
 };
 
@@ -115,7 +115,7 @@ struct Found {
 struct Verdict {
   Found ahead;
   std::vector<double> others_m;  // what else it could mean: one ahead on its way, and one that parts from it
-  double known_m = kNobody_m;    // of its way before its front
+  double known_m = kNoLeader_m;  // of its way before its front
   bool unsure = false;
 };
 
@@ -130,7 +130,7 @@ void EachUnder(const Drive& drive, const Car& car, const Tell& tell) {
   }
 }
 
-Verdict WhoIsAhead(const Drive& drive, const Drive::Instant& moment, const Car& me) {
+Verdict LeaderOf(const Drive& drive, const Drive::Instant& moment, const Car& me) {
   Verdict verdict;
   std::vector<std::pair<double, Found>> partings;  // with where the lane of the way begins that they part from
   const auto& way = drive.WayOf(me);
@@ -200,7 +200,7 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Instant& moment, const Car& 
 double Sight_m(double speed_mps) { return std::min(kLookedAt_m, speed_mps * speed_mps / 3.0 + 3.0 * speed_mps + 60.0); }
 
 struct Compared {
-  int ahead = 0, nobody = 0, another = 0,
+  int ahead = 0, without_leader = 0, another = 0,
       unsure = 0;  // another: not the one that lets it drive on least, but one of them
 };
 
@@ -214,7 +214,7 @@ Compared Compare(const std::string& name, TrafficModel& model) {
       const auto said = moment.said.find(me.id);
       if (said == moment.said.end() || me.changing) continue;
       const auto told = [&] { return fmt::format("{}: car {} after {:.2f} s", name, me.id, kStep_s * i); };
-      const Verdict verdict = WhoIsAhead(drive, moment, me);
+      const Verdict verdict = LeaderOf(drive, moment, me);
       const double range_m = std::min(Sight_m(me.speed_mps), verdict.known_m);
       const auto is_said = [&](double gap_m) { return std::fabs(said->second - gap_m) < kSame_m; };
       if (verdict.unsure)
@@ -222,7 +222,7 @@ Compared Compare(const std::string& name, TrafficModel& model) {
       else if (verdict.ahead.gap_m <= range_m && is_said(verdict.ahead.gap_m))
         ++compared.ahead;
       else if (verdict.ahead.gap_m > range_m && said->second > range_m - kSame_m)
-        ++compared.nobody;
+        ++compared.without_leader;
       else if (std::any_of(verdict.others_m.begin(), verdict.others_m.end(), is_said))
         ++compared.another;
       else
@@ -245,7 +245,7 @@ TEST(Neighbours, AreThoseThatAFullSearchFinds) {
     const Compared compared = Compare(name, model);
     EXPECT_EQ(compared.unsure, 0) << name;
     EXPECT_GT(compared.ahead, 1500) << name;
-    EXPECT_GT(compared.nobody, 200) << name;
+    EXPECT_GT(compared.without_leader, 200) << name;
     EXPECT_EQ(compared.another, 0) << name;
   }
 }
@@ -310,7 +310,7 @@ TEST(Neighbours, OfTwoThatTurnOffTheOneThatSlowsMostCounts) {
   EXPECT_LT(model.agent(kMe).speed_mps, 0.05);
 }
 
-// The study looks at neighbours in cells alone; who drives as the source's driver does runs into others.
+// The study looks at neighbours in cells alone. Vehicles of the source's driver model run into others.
 TEST(Neighbours, EveryContactOfAStudyIsOneOfAllPairs) {
   StudySettings settings;
   settings.traffic.vehicles = 20;

@@ -42,7 +42,7 @@ TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
   settings.speed_factor_low = 0.9;
   TrafficModel model = TrafficModel::Make(settings, NetworkOf(world.value()), {}).value();
   int over = 0;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> who;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> overtakers;
   for (int i = 0; i < 20 * 900; ++i) {
     for (std::uint32_t id = 0; id < 14; id += 4) model.CapSpeed(id, 6.0);
     model.Step(0.05, {});
@@ -57,7 +57,7 @@ TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
             const lanes::Track& track = model.graph()[beside.track];
             if (track.lane.lane != pose.lane || beside.foot.d_m <= 0.0 || beside.foot.d_m >= track.length_m()) continue;
             if (beside.foot.offset_m < 0.5 * track.curve.WidthAt(beside.foot.d_m)) continue;
-            ++over, who.insert({pose.id, pose.trip});
+            ++over, overtakers.insert({pose.id, pose.trip});
             EXPECT_TRUE(legal(track.curve.StationAt(beside.foot.d_m)))
                 << "car " << pose.id << " at " << i * 0.05 << " s, s " << track.curve.StationAt(beside.foot.d_m);
           }
@@ -73,7 +73,7 @@ TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
     }
   }
   EXPECT_GT(over, 0);
-  EXPECT_GE(who.size(), 4u);
+  EXPECT_GE(overtakers.size(), 4u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// People on foot: nobody is touched, who waits is let go, and the arithmetic of it.
+// People on foot: nobody is touched, pedestrian waits is let go, and the arithmetic of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,12 +33,12 @@ class PeopleWatcher {
       for (const AgentPose& pose : model.poses()) {
         const driver::Footprint car = FootprintOf(pose, model.traits(pose.id));
         if (std::hypot(car.x_m - person.x_m, car.y_m - person.y_m) > 10.0 || !driver::Overlap(car, person)) continue;
-        const Pedestrians::Person& who = people.people()[person.id - Pedestrians::kFirstId];
+        const Pedestrians::Person& pedestrian = people.people()[person.id - Pedestrians::kFirstId];
         if (touched++ == 0)
           first = fmt::format(
               "{:.1f} s: car {} ({:.2f} m/s) and {} (crossing {} '{}', u {:.2f} m, walks {}) at ({:.2f}, {:.2f})",
-              time_s, pose.id, pose.speed_mps, person.id, who.crossing, people.crossings()[who.crossing].id, who.u_m,
-              who.walks, person.x_m, person.y_m);
+              time_s, pose.id, pose.speed_mps, person.id, pedestrian.crossing,
+              people.crossings()[pedestrian.crossing].id, pedestrian.u_m, pedestrian.walks, person.x_m, person.y_m);
       }
     }
     std::size_t present = 0;
@@ -58,8 +58,8 @@ class PeopleWatcher {
   double longest_wait_s = 0.0;
 };
 
-void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, double per_h,
-                     Physics physics = Physics::kPlanar) {
+void ExpectNoPedestrianTouched(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles,
+                               double per_h, Physics physics = Physics::kPlanar) {
   StudySettings settings;
   settings.traffic.vehicles = vehicles;
   settings.traffic.seed = 5;
@@ -90,14 +90,14 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
 
 TEST(Pedestrians, NoPedestrianIsTouchedOnTheMaps) {
   for (const std::string& name : lanes::MapNames())
-    NobodyIsTouched(name, WithCrossings(*lanes::MapNetwork(name)), name == "town" ? 60 : 25, 300.0);
+    ExpectNoPedestrianTouched(name, WithCrossings(*lanes::MapNetwork(name)), name == "town" ? 60 : 25, 300.0);
 }
 
 TEST(Pedestrians, NoPedestrianIsTouchedInTheRealFiles) {
   if (lanes::RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
   for (const char* file : {"carla_Town04.xodr", "esmini_fabriksgatan.xodr", "esmini_multi_intersections.xodr"}) {
-    NobodyIsTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()),
-                    std::string(file) == "carla_Town04.xodr" ? 100 : 25, 120.0);
+    ExpectNoPedestrianTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()),
+                              std::string(file) == "carla_Town04.xodr" ? 100 : 25, 120.0);
   }
 }
 
@@ -234,9 +234,9 @@ TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
   EXPECT_NEAR(sum / kPhases, T * T / (2.0 * kEvery_s), 2.0 * kStep_s);
 }
 
-// One car and one person, who comes to the kerb when it is so far away: from where it can stop by three quarters of its
-// comfortable braking, half a second later, it does, before the walkway; nearer, it drives on as if none was there,
-// and the person goes when it has passed.
+// One car and one person, pedestrian comes to the kerb when it is so far away: from where it can stop by three quarters
+// of its comfortable braking, half a second later, it does, before the walkway; nearer, it drives on as if none was
+// there, and the person goes when it has passed.
 void YieldsWhereItCan(bool left_hand) {
   constexpr double kStep_s = 0.01;
   const NetworkPointer network = Street(left_hand);

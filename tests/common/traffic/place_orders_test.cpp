@@ -27,10 +27,11 @@ TrafficModel Made(std::uint32_t vehicles) {
   return TrafficModel::Make(settings, driver::StraightWorld(2000.0, 20.0), {}).value();
 }
 
-PlaceOrder Brake(const TrafficModel& model, PlaceOrder::Whom whom, std::uint32_t id = 0, double s_m = kPlace_m) {
+PlaceOrder Brake(const TrafficModel& model, PlaceOrder::Recipients recipients, std::uint32_t id = 0,
+                 double s_m = kPlace_m) {
   PlaceOrder order = PlaceOrders::At(model, "test", s_m).value();
   order.value = 3.0;
-  order.whom = whom;
+  order.recipients = recipients;
   order.id = id;
   return order;
 }
@@ -67,7 +68,7 @@ std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrder
 TEST(PlaceOrders, TheNextOneBrakesWhereItPasses) {
   TrafficModel model = Made(30);
   PlaceOrders orders;
-  orders.Add(Brake(model, PlaceOrder::Whom::kNext));
+  orders.Add(Brake(model, PlaceOrder::Recipients::kNext));
   std::set<std::uint32_t> told;
   const auto passed = Drive(model, orders, 4000, [&](int) {
     for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
@@ -94,7 +95,7 @@ TEST(PlaceOrders, OneAgentIsToldWhenItPassesAndAllAreToldEachTime) {
   ASSERT_GT(passed.size(), 6u);
   TrafficModel model = Made(30);
   PlaceOrders orders;
-  PlaceOrder slow = Brake(model, PlaceOrder::Whom::kOne, passed[3].second);
+  PlaceOrder slow = Brake(model, PlaceOrder::Recipients::kOne, passed[3].second);
   slow.kind = OrderKind::kSpeed;
   slow.value = 5.0;
   orders.Add(slow);
@@ -105,7 +106,7 @@ TEST(PlaceOrders, OneAgentIsToldWhenItPassesAndAllAreToldEachTime) {
     EXPECT_EQ(model.agent(id).cap_mps, id == passed[3].second ? 5.0 : Agent::kNoCap_mps) << id;
   TrafficModel many = Made(30);
   PlaceOrders all;
-  PlaceOrder each = Brake(many, PlaceOrder::Whom::kAll);
+  PlaceOrder each = Brake(many, PlaceOrder::Recipients::kAll);
   each.kind = OrderKind::kSpeed;
   each.value = 15.0;
   all.Add(each);
@@ -132,7 +133,7 @@ TEST(PlaceOrders, APlaceWhereARoadEndsIsPassedToo) {
       PlaceOrder order = PlaceOrders::At(model, road.id(), s == 0.0 ? 1e-9 : s - 1e-9).value();
       order.kind = OrderKind::kSpeed;
       order.value = 8.0 + (s == 0.0 ? 0.25 : 0.5);
-      order.whom = PlaceOrder::Whom::kAll;
+      order.recipients = PlaceOrder::Recipients::kAll;
       orders.Add(order);
     }
   }
@@ -159,9 +160,9 @@ TEST(PlaceOrders, RestoredTheyAreObeyedAtTheSameSteps) {
   for (const int at : {0, 500, 1700}) {
     TrafficModel model = Made(20), other = Made(20);
     PlaceOrders orders, restored;
-    orders.Add(Brake(model, PlaceOrder::Whom::kNext));
-    orders.Add(Brake(model, PlaceOrder::Whom::kOne, 7, 900.0));
-    PlaceOrder slow = Brake(model, PlaceOrder::Whom::kAll, 0, 1200.0);
+    orders.Add(Brake(model, PlaceOrder::Recipients::kNext));
+    orders.Add(Brake(model, PlaceOrder::Recipients::kOne, 7, 900.0));
+    PlaceOrder slow = Brake(model, PlaceOrder::Recipients::kAll, 0, 1200.0);
     slow.kind = OrderKind::kSpeed;
     orders.Add(slow);
     (void)Drive(model, orders, at);

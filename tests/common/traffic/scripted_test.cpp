@@ -200,7 +200,7 @@ TEST(Scripted, ToldWhenTheyPassAPlace) {
   Step(model);
   PlaceOrders orders;
   PlaceOrder order = PlaceOrders::At(model, "1", 360.0).value();
-  order.kind = OrderKind::kChangeLane, order.value = 1.0, order.whom = PlaceOrder::Whom::kNext;
+  order.kind = OrderKind::kChangeLane, order.value = 1.0, order.recipients = PlaceOrder::Recipients::kNext;
   orders.Add(order);
   const auto station = [&] {
     return std::atan2(PoseOf(model, 0)->p_WB_W.x(), 500.0 - PoseOf(model, 0)->p_WB_W.y()) * 500.0;
@@ -228,7 +228,7 @@ TEST(Scripted, RestoredTheSameBits) {
   model.CommandLaneChange(0, 1);
   PlaceOrders orders;
   PlaceOrder order = PlaceOrders::At(model, "1", 700.0).value();
-  order.kind = OrderKind::kOvertake, order.whom = PlaceOrder::Whom::kAll;
+  order.kind = OrderKind::kOvertake, order.recipients = PlaceOrder::Recipients::kAll;
   orders.Add(order);
   for (int part = 0; part < 3; ++part) {
     base::StateWriter writer;

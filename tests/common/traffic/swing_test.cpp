@@ -153,8 +153,8 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
   RecordProperty("beyond", beyond);
 }
 
-// Who leaves a tight bend gains speed as drivers do while his hands turn back: 15 m behind it a bus is on its line, and
-// zones are hardly wider for it.
+// A vehicle that leaves a tight bend gains speed while the steering turns back: 15 m behind it a bus is on its line,
+// and zones are hardly wider for it.
 TEST(Swing, ACarThatLeavesABendGainsSpeedAsDriversDo) {
   TrafficSettings settings = Full();
   settings.mix.shares = {0.5, 0.0, 0.0, 0.5};

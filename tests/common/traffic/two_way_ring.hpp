@@ -18,7 +18,7 @@
 namespace rodeira::traffic {
 
 inline constexpr double kRadius_m = 600.0, kWidth_m = 3.5, kLimit_mps = 20.0, kRound = 2.0 * std::numbers::pi;
-inline constexpr double kNobody_s = 1e9;
+inline constexpr double kNoOncoming_s = 1e9;
 
 // A road of one lane a direction around a circle, with these marks in its middle.
 inline std::shared_ptr<const network::Network> TwoWayRing(const std::string& marks, bool left_hand = false,
@@ -46,8 +46,8 @@ class RingWatch {
   struct Crossing {
     std::uint32_t id;
     bool with;
-    double from_m, to_m;         // along the road, where it was over the middle
-    double spare_s = kNobody_s;  // until the oncoming one was where it then was, at the end
+    double from_m, to_m;             // along the road, where it was over the middle
+    double spare_s = kNoOncoming_s;  // until the oncoming one was where it then was, at the end
     double length_s = 0.0;
   };
 
@@ -59,7 +59,7 @@ class RingWatch {
       const auto out = out_.find(id);
       if (over && out == out_.end()) out_[id] = {car.s_m, time_s};
       if (over || out == out_.end()) continue;
-      Crossing crossing{id, car.with, out->second.s_m, car.s_m, kNobody_s, time_s - out->second.time_s};
+      Crossing crossing{id, car.with, out->second.s_m, car.s_m, kNoOncoming_s, time_s - out->second.time_s};
       for (const auto& [other, comes] : cars) {
         if (comes.with == car.with) continue;
         double gap = std::remainder((comes.s_m - car.s_m) * (car.with ? 1.0 : -1.0), kRound * kRadius_m) -

@@ -18,7 +18,7 @@ namespace rodeira::nodes {
 namespace pushed_input = window::pushed_input;
 
 // A desk without a display, and a person's hands on it.
-class ADesk : public testing::Test {
+class EditorAppTest : public testing::Test {
  public:
   static constexpr double kLeft_px = 300.0, kTop_px = 19.0;  // the canvas' corner
 

@@ -23,7 +23,7 @@ void WritePhotograph(const std::filesystem::path& path) {
   ASSERT_TRUE(window::WritePng(path, image).ok());
 }
 
-TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
+TEST_F(EditorAppTest, TheThesisExampleIsDrawnByHand) {
   work().view.metres_per_px = 0.1;
   WritePhotograph(At("photo.png"));
   Press(SDL_SCANCODE_B);
@@ -113,7 +113,7 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Keep("editor_traffic.png");
 }
 
-TEST_F(ADesk, UndoByKeys) {
+TEST_F(EditorAppTest, UndoByKeys) {
   Press(SDL_SCANCODE_C);
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_TRUE(document().map.curves.empty());
@@ -121,7 +121,7 @@ TEST_F(ADesk, UndoByKeys) {
   EXPECT_EQ(document().map.curves.size(), 1u);
 }
 
-TEST_F(ADesk, PanAndZoomHoldThePlane) {
+TEST_F(EditorAppTest, PanAndZoomHoldThePlane) {
   const Eigen::Vector2d middle = work().view.middle_W;
   const double finest = work().view.metres_per_px;
   pushed_input::MoveTo(700, 300);
@@ -140,7 +140,7 @@ TEST_F(ADesk, PanAndZoomHoldThePlane) {
   EXPECT_NE(work().view.middle_W, middle);
 }
 
-TEST_F(ADesk, ALaneInOneGestureAndTheProposedConnection) {
+TEST_F(EditorAppTest, ALaneInOneGestureAndTheProposedConnection) {
   work().view.metres_per_px = 0.1;
   Press(SDL_SCANCODE_L);
   Drag(On(-40.0, 0.0), On(0.0, 0.0));
@@ -155,7 +155,7 @@ TEST_F(ADesk, ALaneInOneGestureAndTheProposedConnection) {
   Keep("editor_gesture.png");
 }
 
-TEST_F(ADesk, ATemplateIsPlacedTurnedAndDrivenOn) {
+TEST_F(EditorAppTest, ATemplateIsPlacedTurnedAndDrivenOn) {
   Press(SDL_SCANCODE_2);
   Drag(On(0.0, 0.0), On(10.0, 3.0));
   EXPECT_EQ(Said(), "roundabout made");
@@ -173,7 +173,7 @@ TEST_F(ADesk, ATemplateIsPlacedTurnedAndDrivenOn) {
   EXPECT_TRUE(work().traffic.runs);
 }
 
-TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
+TEST_F(EditorAppTest, ARectangleChoosesAndDeleteTakesAlong) {
   Press(SDL_SCANCODE_1);
   pushed_input::Click(On(0.0, 0.0).x(), On(0.0, 0.0).y());
   Show();
@@ -190,7 +190,7 @@ TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
   EXPECT_EQ(document().map.lanes.size(), 20u);
 }
 
-TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
+TEST_F(EditorAppTest, JoinedHandlesMoveTogetherAndInOneStepBack) {
   OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
   const auto point = [&](std::int32_t curve, std::size_t index) {
@@ -218,7 +218,7 @@ TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
   EXPECT_NEAR(static_cast<double>(point(2, 0).y_m), 18.5, 0.2);
 }
 
-TEST_F(ADesk, TheBackgroundIsScaledByAKnownDistance) {
+TEST_F(EditorAppTest, TheBackgroundIsScaledByAKnownDistance) {
   work().view.metres_per_px = 0.1;
   Press(SDL_SCANCODE_M);
   Drag(On(-20.0, 5.0), On(20.0, 5.0));
@@ -230,7 +230,7 @@ TEST_F(ADesk, TheBackgroundIsScaledByAKnownDistance) {
   EXPECT_EQ(document().map.scale.value.value, 10.0f);
 }
 
-TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
+TEST_F(EditorAppTest, HandlesNumbersAndTheCentreAreHidden) {
   OpenTheGoodMap();
   // Of the colour that handles have.
   const auto yellow = [&] {
@@ -260,7 +260,7 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
 
 // White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4
 // on a lane of 3 m).
-TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
+TEST_F(EditorAppTest, LinesWhereOneStopsOrGivesWayArePainted) {
   OpenTheGoodMap();
   work().session.Do([](editor::Document& document) {
     return editor::SetSigns(document, {{2, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}});
@@ -283,7 +283,7 @@ TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
   for (const double y_m : {-0.8, 0.1, 0.8}) EXPECT_FALSE(white(59.7, y_m)) << y_m;
 }
 
-TEST_F(ADesk, ResetIsAskedFor) {
+TEST_F(EditorAppTest, ResetIsAskedFor) {
   OpenTheGoodMap();
   Press(SDL_SCANCODE_R, KMOD_CTRL);
   ASSERT_EQ(work().form, Form::kReset);
@@ -294,7 +294,7 @@ TEST_F(ADesk, ResetIsAskedFor) {
   EXPECT_TRUE(document().map.curves.empty());
 }
 
-TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
+TEST_F(EditorAppTest, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   ASSERT_TRUE(base::WriteWhole(At("broken.motors"), "p,1,2\n").ok());
   ASSERT_TRUE(base::WriteWhole(At("letter.png"), "Dear all").ok());
   Press(SDL_SCANCODE_C);
@@ -317,7 +317,7 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
 }
 
 // By default every ten seconds.
-TEST_F(ADesk, WorkIsKeptWhileItIsUnsaved) {
+TEST_F(EditorAppTest, WorkIsKeptWhileItIsUnsaved) {
   Press(SDL_SCANCODE_C);
   app_->KeepEvery(0.5);
   for (int i = 0; i < 40; ++i) app_->Frame(0);

@@ -39,7 +39,7 @@ Eigen::Vector2d PlaceIn(const std::string& table, const std::string& line) {
   return {cell("position_w_m.x"), cell("position_w_m.y")};
 }
 
-class AnExport : public ADesk {
+class AnExport : public EditorAppTest {
  protected:
   std::string Told() const { return base::ReadText(At("said.txt")).value(); }
 };

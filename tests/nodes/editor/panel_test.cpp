@@ -9,7 +9,7 @@ const traffic_map::Lane& LaneOf(const editor::Document& document, std::int32_t n
   return document.map.lanes[*editor::Find(document.map.lanes, number)].value;
 }
 
-TEST_F(ADesk, ListsShowChooseAndDelete) {
+TEST_F(EditorAppTest, ListsShowChooseAndDelete) {
   OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
   EXPECT_FALSE(work().places.contains("lane 2"));
@@ -40,7 +40,7 @@ TEST_F(ADesk, ListsShowChooseAndDelete) {
   EXPECT_EQ(editor::BytesOf(document()), before);
 }
 
-TEST_F(ADesk, OfAListOnlyWhatIsSeenIsDrawn) {
+TEST_F(EditorAppTest, OfAListOnlyWhatIsSeenIsDrawn) {
   Press(SDL_SCANCODE_1);  // a crossing: 20 lanes
   ClickOn(0.0, 0.0);
   Click("Manage lanes and connections");
@@ -57,7 +57,7 @@ TEST_F(ADesk, OfAListOnlyWhatIsSeenIsDrawn) {
   EXPECT_TRUE(work().session.selection.lanes.contains(20));
 }
 
-TEST_F(ADesk, TheChosenLaneIsChanged) {
+TEST_F(EditorAppTest, TheChosenLaneIsChanged) {
   OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
   ClickOn(15.0, 0.0);
@@ -76,7 +76,7 @@ TEST_F(ADesk, TheChosenLaneIsChanged) {
   EXPECT_FALSE(editor::Find(document().map.lanes, 1));
 }
 
-TEST_F(ADesk, SignsAndFlowsOfALane) {
+TEST_F(EditorAppTest, SignsAndFlowsOfALane) {
   OpenTheGoodMap();
   ClickOn(15.0, 0.0);
   Click("add sign");
@@ -126,7 +126,7 @@ TEST_F(ADesk, SignsAndFlowsOfALane) {
   EXPECT_FALSE(work().places.contains("flow"));
 }
 
-TEST_F(ADesk, HeightsFieldByFieldAndTheirProfile) {
+TEST_F(EditorAppTest, HeightsFieldByFieldAndTheirProfile) {
   OpenTheGoodMap();
   Press(SDL_SCANCODE_H);  // or a handle would be taken
   ClickOn(15.0, 1.5);
@@ -160,7 +160,7 @@ TEST_F(ADesk, HeightsFieldByFieldAndTheirProfile) {
   EXPECT_EQ(document().companion.Of(1), (std::array<double, 4>{}));
 }
 
-TEST_F(ADesk, LightsWithTheirPhases) {
+TEST_F(EditorAppTest, LightsWithTheirPhases) {
   OpenTheGoodMap();
   ClickOn(15.0, 0.0);
   Click("Traffic lights");
@@ -194,7 +194,7 @@ TEST_F(ADesk, LightsWithTheirPhases) {
   EXPECT_TRUE(document().companion.lights.empty());
 }
 
-TEST_F(ADesk, TheVisibleWidthIsShownAndSet) {
+TEST_F(EditorAppTest, TheVisibleWidthIsShownAndSet) {
   OpenTheGoodMap();
   const Eigen::Vector2d middle = work().view.middle_W;
   Fill("visible width", "98");
@@ -209,7 +209,7 @@ TEST_F(ADesk, TheVisibleWidthIsShownAndSet) {
   EXPECT_LT(work().view.width_m(), 1e7);
 }
 
-TEST_F(ADesk, NewElementsByTheirButtons) {
+TEST_F(EditorAppTest, NewElementsByTheirButtons) {
   work().view.metres_per_px = 0.1;
   Click("New Curve");
   EXPECT_EQ(document().map.curves.size(), 1u);
@@ -242,7 +242,7 @@ TEST_F(ADesk, NewElementsByTheirButtons) {
   EXPECT_FALSE(work().places.contains("Connect")) << "nothing is left to connect";
 }
 
-TEST_F(ADesk, TheMenusDoWhatTheirKeysDo) {
+TEST_F(EditorAppTest, TheMenusDoWhatTheirKeysDo) {
   const auto menu = [this](const char* title, const char* entry) {
     Click(std::string("menu ") + title);
     Click(entry);
@@ -270,7 +270,7 @@ TEST_F(ADesk, TheMenusDoWhatTheirKeysDo) {
   EXPECT_EQ(work().form, Form::kUnsaved);
 }
 
-TEST_F(ADesk, NamesInGreekAndPortugueseAreOpenedFromTheList) {
+TEST_F(EditorAppTest, NamesInGreekAndPortugueseAreOpenedFromTheList) {
   // Files that a person sees in the list and clicks on; the status line says their names.
   for (const char* name : {"Πάτρα.motors", "São João.motors"}) {
     ASSERT_TRUE(base::WriteWhole(At(name), traffic_map::GoodMap()).ok());
@@ -285,7 +285,7 @@ TEST_F(ADesk, NamesInGreekAndPortugueseAreOpenedFromTheList) {
   Press(SDL_SCANCODE_ESCAPE);
 }
 
-TEST_F(ADesk, TrafficByItsPanel) {
+TEST_F(EditorAppTest, TrafficByItsPanel) {
   OpenTheGoodMap();
   Fill("vehicles", "5");
   EXPECT_EQ(work().traffic.vehicles, 5);
@@ -313,7 +313,7 @@ TEST_F(ADesk, TrafficByItsPanel) {
   EXPECT_EQ(work().traffic.pace, 20.0f);
 }
 
-TEST_F(ADesk, TheBackgroundByItsPanel) {
+TEST_F(EditorAppTest, TheBackgroundByItsPanel) {
   OpenTheGoodMap();
   Click("Import Background");
   EXPECT_TRUE(work().files.open());

@@ -5,7 +5,7 @@
 namespace rodeira::nodes {
 namespace {
 
-class AQuestion : public ADesk {
+class AQuestion : public EditorAppTest {
  protected:
   // A map that has a file, with a change.
   void Change() {
@@ -159,7 +159,7 @@ TEST_F(AQuestion, TheWindowIsClosedWhileAFileIsAskedFor) {
   EXPECT_EQ(document().map.curves.size(), 7u) << "the keys work again";
 }
 
-class WorkLeftBehind : public ADesk {
+class WorkLeftBehind : public EditorAppTest {
  protected:
   // Of an editor that has ended: the map with another scale.
   void Leave(float scale) {

@@ -119,7 +119,7 @@ class ARealWindow : public testing::Test {
                      places_.at(place).y()));
   }
   void Drag(const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W) const {
-    const Eigen::Vector2d corner(ADesk::kLeft_px, ADesk::kTop_px),
+    const Eigen::Vector2d corner(EditorAppTest::kLeft_px, EditorAppTest::kTop_px),
         from = view_.ToPixels(from_W) + corner, to = view_.ToPixels(to_W) + corner, between = 0.5 * (from + to);
     Tool(
         fmt::format("mousemove {:.0f} {:.0f} sleep 0.03 mousedown 1 sleep 0.03 mousemove {:.0f} {:.0f} sleep 0.03 "
@@ -149,7 +149,8 @@ class ARealWindow : public testing::Test {
   std::map<std::string, Eigen::Vector2d> places_;
   std::optional<base::TemporaryFolder> folder_;
   std::optional<Running> server_, editor_;
-  editor::Viewport view_{Eigen::Vector2d::Zero(), 0.1, 1280.0 - ADesk::kLeft_px, 800.0 - ADesk::kTop_px - 30.0};
+  editor::Viewport view_{Eigen::Vector2d::Zero(), 0.1, 1280.0 - EditorAppTest::kLeft_px,
+                         800.0 - EditorAppTest::kTop_px - 30.0};
 };
 
 TEST_F(ARealWindow, TheThesisExampleIsDrawnSavedAndDrivenOn) {

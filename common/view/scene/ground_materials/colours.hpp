@@ -6,7 +6,7 @@
 
 namespace rodeira::scene {
 
-// How it is drawn where nothing else is said.
+// The colour of a surface where the world gives none.
 Colour SurfaceColour(ground::Surface surface);
 
 // Smooth noise in [-1, 1] with features of about `wavelength_m`, a pure function of place and seed.

@@ -19,7 +19,7 @@ using tessellation::Triangulation;
 
 constexpr double kApron_m = 0.9;     // of a bridge's side, and as deep its underside lies
 constexpr double kMaxKerb_m = 0.35;  // lower steps are stone, higher ones earth
-constexpr std::size_t kNobody = 99;
+constexpr std::size_t kNoFace = 99;
 // A picture's samples may lie outside the triangle that they take the light of: thinner than a pixel, it would be lit
 // as the ground at the far end of a change that goes on and on. Where normals change by more than this a metre a
 // triangle has one normal: its own, or where it is too thin to have a good one, the mean.
@@ -160,7 +160,7 @@ class Weaver {
     const std::size_t count = plan_.faces[other].levels.size();
     if (count == 1 && plan_.faces[face].levels.size() == 1) return 0;
     const double z = MeanHeight(side, face, level);
-    std::size_t best = kNobody;
+    std::size_t best = kNoFace;
     double nearest = kLevelApart_m;
     for (std::size_t i = 0; i < count; ++i) {
       const double apart = std::fabs(MeanHeight(side, other, i) - z);
@@ -174,7 +174,7 @@ class Weaver {
   std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level,
                       std::uint32_t other) const {
     const std::size_t nearest = Nearest(side, face, level, other);
-    return nearest != kNobody && Nearest(side, other, nearest, face) == level ? nearest : kNobody;
+    return nearest != kNoFace && Nearest(side, other, nearest, face) == level ? nearest : kNoFace;
   }
 
   // What stands between a triangle's side and the face beyond, seen from there: where this one is higher.
@@ -188,13 +188,13 @@ class Weaver {
       std::array<double, 2> foot = {z(0) - kApron_m, z(1) - kApron_m};
       const Face& own = plan_.faces[face];
       // The ground below a deck that goes on beyond its end stops at the abutment, up to the deck's underside.
-      const bool abuts = partner == kNobody && level > 0 && !HasUnderside(own, level) && HasUnderside(own, level - 1) &&
-                         Partner(side, face, level - 1, other) != kNobody;
+      const bool abuts = partner == kNoFace && level > 0 && !HasUnderside(own, level) && HasUnderside(own, level - 1) &&
+                         Partner(side, face, level - 1, other) != kNoFace;
       if (abuts) {
         for (const std::size_t c : {0, 1}) foot[c] = heights_.At(side[c], face)[level - 1].z_m - kApron_m;
         if (z(0) == foot[0] && z(1) == foot[1]) continue;
       }
-      if (partner != kNobody) {
+      if (partner != kNoFace) {
         foot = {heights_.At(side[0], other)[partner].z_m, heights_.At(side[1], other)[partner].z_m};
         if (z(0) == foot[0] && z(1) == foot[1]) continue;
         const double higher = z(0) + z(1) - foot[0] - foot[1];
@@ -203,8 +203,8 @@ class Weaver {
       const double high = std::max(z(0) - foot[0], z(1) - foot[1]);
       const Skin& skin = plan_.faces[face].skins[level];
       Colour colour = SurfaceColour(ground::Surface::kSoil);
-      if (partner == kNobody || (high < kMaxKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
-      if (partner != kNobody && high < kMaxKerb_m && plan_.faces[other].skins[partner].colour == skin.colour)
+      if (partner == kNoFace || (high < kMaxKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
+      if (partner != kNoFace && high < kMaxKerb_m && plan_.faces[other].skins[partner].colour == skin.colour)
         colour = skin.colour;
       Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }

@@ -7,11 +7,11 @@
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/raster/dial.hpp"
 
-// What a driver has before him: dashboard, instruments, steering wheel. Frame E: origin in the driver's eye, axes of
+// What lies before the driver: dashboard, instruments, steering wheel. Frame E: origin in the driver's eye, axes of
 // the car's body (x forward, y left, z up).
 namespace rodeira::scene {
 
-// A flat thing that faces the driver. Its own frame: x to the driver's right, y up, z towards him.
+// A flat thing that faces the driver. Its own frame: x to the driver's right, y up, z towards the driver.
 struct CabinPose {
   Eigen::Vector3d middle_E = Eigen::Vector3d::Zero();
   double leaning_rad = 0.0;  // its upper edge away from the driver

@@ -3,8 +3,8 @@
 
 #include "common/view/scene/mesh/mesh.hpp"
 
-// What is about a driver in a car, but for what he reads and holds (cabin.hpp): doors, posts, roof, seats. In frame E:
-// origin in the driver's eye, axes of the car's body (x forward, y left, z up).
+// What is about the driver in a car, without instruments and steering wheel (cabin.hpp): doors, posts, roof, seats. In
+// frame E: origin in the driver's eye, axes of the car's body (x forward, y left, z up).
 namespace rodeira::scene {
 
 // What the cabin's measures follow from.

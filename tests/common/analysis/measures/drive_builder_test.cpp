@@ -30,7 +30,7 @@ Drive Driven(const network::Network& network, double seconds, const Pose& pose, 
   return builder.Finish();
 }
 
-std::vector<OtherVehicle> Nobody(double) { return {}; }
+std::vector<OtherVehicle> NoOthers(double) { return {}; }
 
 OtherVehicle Car(std::int64_t id, double x, double y, double speed) { return {id, x, y, 0.0, speed, 4.0, 2.0}; }
 
@@ -42,7 +42,7 @@ TEST(DriveBuilder, LanePositionOfAWeavingDrive) {
     const double y = 0.3 * std::sin(w * t), slope = 0.3 * w * std::cos(w * t) / 20.0;
     return Eigen::Vector3d(50.0 + 20.0 * t, -1.75 + y, std::atan(slope));
   };
-  const Drive d = Driven(*network, 20.0, pose, Nobody);
+  const Drive d = Driven(*network, 20.0, pose, NoOthers);
   ASSERT_EQ(d.size(), 2000u);
   for (const std::size_t k : {0u, 333u, 1999u}) {
     const double t = static_cast<double>(k) / kRate;
@@ -119,7 +119,7 @@ TEST(DriveBuilder, ChangesShouldersAndBesideTheRoad) {
     const double change = std::clamp((t - 5.0) / 4.0, 0.0, 1.0), off = std::max(0.0, t - 15.0);
     return Eigen::Vector3d(50.0 + 20.0 * t, -1.75 - 3.5 * change - 1.0 * off, 0.0);
   };
-  const Drive d = Driven(*network, 25.0, pose, Nobody);
+  const Drive d = Driven(*network, 25.0, pose, NoOthers);
   std::size_t crossings = 0;
   for (const std::int8_t c : d.crossing) crossings += c != 0 ? 1u : 0u;
   EXPECT_EQ(crossings, 1u);
