@@ -25,6 +25,10 @@ constexpr int kSlopeRounds = 100;
 // A tile with so many points is not met any closer: an end where the ground of a file that is possible, and nowhere on
 // earth, is steep over the whole tile. 217 000 were found where a real file banks its lanes by 45 degrees.
 constexpr std::size_t kMaxPoints = 1'000'000;
+// Beside a road that climbs or is banked by 45 degrees the land bends everywhere. A tile that has so many points is
+// followed, where neither end of a side lies on a road's edge, as closely as the middles of the land's triangles are.
+// 61 000 are the most in other real files.
+constexpr std::size_t kManyPoints = 80'000;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {
@@ -188,6 +192,7 @@ class Rounds {
   // False where nothing was put in.
   bool MeetSlopes() {
     const BendRange& slope = Slope();
+    many_ = plan_.triangles.points().size() >= kManyPoints;
     const bool within_slopes = !world_.open_drive() && (level_ > 0 || kept_ || world_.grid() == nullptr);
     std::vector<Fresh> fresh;
     on_kept_.clear();
@@ -206,7 +211,8 @@ class Rounds {
           ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m)
         continue;
       const road::SurfacePoint middle = world_.At(corners.middle_W.x(), corners.middle_W.y());
-      if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back({Middle(triangles[i]), i});
+      if (middle.inside && IsOff(middle.z_m, corners, many_ ? kLandTolerances_m[level_] : slope.tolerance_m))
+        fresh.push_back({Middle(triangles[i]), i});
     }
     for (const OnKept& on : on_kept_) {
       plan_.triangles.Release(on.a, on.b);
@@ -303,7 +309,10 @@ class Rounds {
                                  std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
       if (!ends && KnownStraight(t.corner[k], t.corner[n])) continue;
       BendRange range = Slope();
-      if (!beside_road_[t.corner[k]] && !beside_road_[t.corner[n]]) range.ends_m = 0.0;
+      if (!beside_road_[t.corner[k]] && !beside_road_[t.corner[n]]) {
+        range.ends_m = 0.0;
+        if (many_) range.tolerance_m = kLandTolerances_m[level_];
+      }
       const auto part = BendBetween(highest_, p_W, c.z[k], q_W, c.z[n], range, straight_ends);
       if (!part && !ends) SetStraight(t.corner[k], t.corner[n]);
       if (!part) continue;
@@ -369,6 +378,7 @@ class Rounds {
   };
   std::vector<OnKept> on_kept_;
   std::vector<bool> beside_road_;  // by point
+  bool many_ = false;              // kManyPoints
   struct Known {
     std::uint32_t face;
     std::uint32_t level;
