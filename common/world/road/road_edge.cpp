@@ -27,6 +27,15 @@ double WidestOf(const network::Road& road) {
   return widest;
 }
 
+bool HasLevelLanes(const network::Road& road) {
+  const auto level = [](const network::Lane& lane) { return lane.level; };
+  const auto& sections = road.spec().sections;
+  return std::any_of(sections.begin(), sections.end(), [&](const network::LaneSection& section) {
+    return std::any_of(section.left.begin(), section.left.end(), level) ||
+           std::any_of(section.right.begin(), section.right.end(), level);
+  });
+}
+
 bool IsConstant(const geometry::CubicTable& table) {
   const auto& records = table.records();
   return std::all_of(records.begin(), records.end(), [&](const geometry::Cubic& one) {
@@ -86,8 +95,7 @@ std::pair<double, double> Steepening(double distance_m, double reach_m) {
 }
 
 EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel) {
-  // A leaning section moves its edges along the road by less than it is wide.
-  if (road.rolled()) {
+  if (road.rolled() && HasLevelLanes(road)) {  // what stays level goes on from where the leaning part ends
     const double beside = road.axis().Bulge(panel) + 2.0 * WidestOf(road) + 1.0;
     return {beside, beside, beside};
   }
@@ -101,8 +109,10 @@ EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& pan
     sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
     most_right = std::max({most_right, -right, -left}), most_left = std::max({most_left, right, left});
   }
-  const double more = road.axis().Bulge(panel) + kSampleMargin_m;
-  return {std::max(most_right, most_left) + more, most_right + more, most_left + more};
+  const double more = road.axis().Bulge(panel) + kSampleMargin_m, most = std::max(most_right, most_left);
+  // Seen from above a leaning section is shorter than t, and does not stand square to the axis.
+  if (road.rolled()) return {most + more, most + more, most + more};
+  return {most + more, most_right + more, most_left + more};
 }
 
 EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to_s_m) {
