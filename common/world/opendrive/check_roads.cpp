@@ -10,6 +10,7 @@
 #include "common/world/network/meeting.hpp"
 #include "common/world/opendrive/checks.hpp"
 #include "common/world/opendrive/repair_lanes.hpp"
+#include "common/world/opendrive/twin_roads.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -61,14 +62,8 @@ struct RoadChecker {
     return names;
   }
 
-  void Ids() const {
+  void JunctionIds() const {
     std::map<std::string, int> count;
-    for (std::size_t i = 0; i < network.roads().size(); ++i) {
-      if (++count[network.roads()[i].id()] == 2)
-        findings.errors.push_back(At(i, "ids.id_unique_in_class", "this id stands at two roads", std::nullopt,
-                                     {RepairKind::kRoadLeftOut, "the second is left out", {RoadNode(i).Remove()}}));
-    }
-    count.clear();
     for (const network::Junction& junction : network.junctions()) {
       if (++count[junction.id] == 2)
         findings.errors.push_back({"ids.id_unique_in_class",
@@ -263,7 +258,8 @@ std::string StepWords(double step_m, double most_m) {
 void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
                     Findings& findings) {
   const RoadChecker checker{network, lines, tolerance, findings};
-  checker.Ids();
+  CheckTwinRoads(network, lines, findings);
+  checker.JunctionIds();
   checker.Ambiguous();
   checker.Links();
   checker.Junctions();

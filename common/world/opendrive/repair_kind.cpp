@@ -45,6 +45,7 @@ constexpr std::array kRepairKinds = {
     RepairKindName{RepairKind::kRoadLeftOut, "road.left_out"},
     RepairKindName{RepairKind::kLengthSet, "road.length_set"},
     RepairKindName{RepairKind::kLinksByLanes, "road.links_by_lanes"},
+    RepairKindName{RepairKind::kRoadRenamed, "road.renamed"},
     RepairKindName{RepairKind::kSectionDropped, "section.dropped"},
     RepairKindName{RepairKind::kLightRaised, "signal.light_raised"},
     RepairKindName{RepairKind::kLightTurned, "signal.light_turned"},

@@ -42,6 +42,7 @@ enum class RepairKind {
   kReadAsLine,
   kRoadEnded,
   kRoadLeftOut,
+  kRoadRenamed,
   kSectionDropped,
   kSorted,
   kStationMoved,
