@@ -285,7 +285,7 @@ base::Result<FileText> ReadFileText(const fs::path& path) {
   FileText file{std::move(found).value().text, {}};
   file.edited.line_starts = LineStarts(file.text);
   file.edited.unread = includes.unread();
-  file.edited.folder = path.parent_path();
+  file.edited.surface_files = std::make_shared<SurfaceFiles>(path.parent_path());
   if (edits.value().empty()) return file;
   file.text = Apply(file.text, edits.value());
   file.edited.maps.emplace_back(edits.value());

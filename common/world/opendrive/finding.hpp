@@ -43,10 +43,4 @@ struct Finding {
   std::string Text() const;
 };
 
-// Another file that this one names, and where.
-struct NamedFile {
-  std::string road, file;
-  std::size_t line = 0;
-};
-
 }  // namespace rodeira::opendrive

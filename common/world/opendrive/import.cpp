@@ -108,7 +108,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   CheckMeasures(root);
   if (readings.empty()) root.Wrong("core.roads", "there is no <road> in the file");
   import.errors = source.errors;
-  import.surfaces = std::move(source.surfaces);
+  import.surface_files = edited == nullptr ? nullptr : edited->surface_files;
   import.warnings.insert(import.warnings.end(), source.warnings.begin(), source.warnings.end());
   Finish(import);
   if (MustStop(import.errors, tolerance)) return import;

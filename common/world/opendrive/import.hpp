@@ -12,6 +12,7 @@
 #include "common/core/base/result.hpp"
 #include "common/world/network/network.hpp"
 #include "common/world/opendrive/finding.hpp"
+#include "common/world/opendrive/surface_files.hpp"
 
 // OpenDRIVE 1.4 to 1.8 (https://www.asam.net/standards/detail/opendrive/) into a network.
 namespace rodeira::opendrive {
@@ -45,7 +46,7 @@ struct Import {
   std::string version;                              // "1.7"
   std::shared_ptr<const network::Network> network;  // null where there are errors
   std::vector<Finding> errors, warnings;            // by line
-  std::vector<NamedFile> surfaces;                  // measured surfaces, as they stand in the file
+  std::shared_ptr<SurfaceFiles> surface_files;      // that the file names; null: they were not looked for
   base::Digest content_hash = 0;                    // of the file's text, with what it includes
   std::string repaired_text;                        // of the file; empty where nothing had to be changed
   std::optional<Reach> before;                      // of the file as it is drawn; nothing where it cannot be built

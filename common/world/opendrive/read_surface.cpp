@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
+#include "common/core/base/suggest.hpp"
 #include "common/world/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
@@ -86,6 +88,44 @@ void CheckStretch(const Node& node, const network::CrgSurface& crg, double lengt
       CutStretch(node, crg, length_m));
 }
 
+// That the surface can be laid: false where its file is missing or damaged.
+bool CheckFile(const Node& node, const network::CrgSurface& crg) {
+  SurfaceFiles* files = node.source().surface_files();
+  if (files == nullptr) return true;
+  if (crg.file.empty()) return false;  // which is told
+  const Within within(node.source());
+  node.source().where.s_m = crg.s_start_m;
+  if (const std::string why = files->WhyMissing(crg.file); !why.empty()) {
+    node.Wrong("rodeira.surface.file", fmt::format("the measured surface '{}' is left out: {}", crg.file, why),
+               TakeOut(node));
+    return false;
+  }
+  const auto& file = files->Read(crg.file);
+  if (file) return true;
+  node.Wrong("rodeira.surface.damaged",
+             fmt::format("the measured surface '{}' is left out: {}", crg.file, file.error().Text()), TakeOut(node));
+  return false;
+}
+
+// A misspelt word is read as the nearest that there is. Where none is near, the surface is left out.
+void CheckWord(const Node& node, const network::CrgSurface& crg, const char* attribute, const std::string& found,
+               const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), found) != known.end()) return;
+  std::string lower = found;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string meant = base::NearestName(lower, known);
+  const Within within(node.source());
+  node.source().where.s_m = crg.s_start_m;
+  node.Wrong(
+      fmt::format("road.surface.crg.{}", attribute),
+      fmt::format("'{}' is no {} of the measured surface '{}'{}", found, attribute, crg.file,
+                  base::DidYouMean(lower, known)),
+      meant.empty()
+          ? TakeOut(node)
+          : Repair{RepairKind::kValueReplaced, fmt::format("it is read as '{}'", meant), {node.Set(attribute, meant)}});
+}
+
 }  // namespace
 
 void ReadSurface(const Node& road, network::RoadSpec& spec) {
@@ -104,15 +144,11 @@ void ReadSurface(const Node& road, network::RoadSpec& spec) {
     crg.z_offset_m = node.Number("zOffset", 0.0);
     crg.z_scale = node.Number("zScale", 1.0);
     crg.h_offset_rad = node.Number("hOffset", 0.0);
-    if (const std::string why = node.source().WhyMissing(crg.file); !why.empty()) {
-      const Within within(node.source());
-      node.source().where.s_m = crg.s_start_m;
-      node.Wrong("rodeira.surface.file", fmt::format("the measured surface '{}' is left out: {}", crg.file, why),
-                 TakeOut(node));
-      continue;
-    }
+    if (!CheckFile(node, crg)) continue;
+    CheckWord(node, crg, "mode", crg.mode, {"attached", "attached0", "genuine", "global"});
+    CheckWord(node, crg, "orientation", crg.orientation, {"same", "opposite"});
+    CheckWord(node, crg, "purpose", crg.purpose, {"elevation", "friction"});
     CheckStretch(node, crg, length_m);
-    node.source().surfaces.push_back({spec.id, crg.file, node.line()});
     for (const Node& data : node.Children("userData")) {
       if (data.Text("code", "") == kGoesOn) ReadGoesOn(data, crg);
     }

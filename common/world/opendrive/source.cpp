@@ -119,11 +119,6 @@ std::string Source::WhyUnread(const std::string& include) const {
   return found == edited_->unread.end() ? "" : found->second;
 }
 
-std::string Source::WhyMissing(const std::string& surface) const {
-  if (edited_ == nullptr || !edited_->folder) return "";
-  return base::NoSuchFile(*edited_->folder / surface);
-}
-
 void Source::PassOverTemporaryLanes() {
   std::size_t count = 0, line = 0;
   for (pugi::xml_node road : document_.document_element().children("road")) {

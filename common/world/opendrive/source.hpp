@@ -14,6 +14,7 @@
 #include "common/core/geometry/cubic.hpp"
 #include "common/world/opendrive/edits.hpp"
 #include "common/world/opendrive/finding.hpp"
+#include "common/world/opendrive/surface_files.hpp"
 
 namespace rodeira::opendrive {
 
@@ -74,7 +75,7 @@ struct Edited {
   std::vector<OffsetMap> maps;
   std::size_t includes = 0;                     // of the maps
   std::map<std::string, std::string> unread;    // included files that could not be read, as they are named: why
-  std::optional<std::filesystem::path> folder;  // the file's; nothing: surfaces that it names are not looked for
+  std::shared_ptr<SurfaceFiles> surface_files;  // null: surfaces that the file names are not looked for
 };
 
 // An XML file as it is read: what is found wrong in it, and in which road, lane and s the reader is.
@@ -90,8 +91,8 @@ class Source {
   // How often it was repaired.
   std::size_t repairs() const { return edited_ == nullptr ? 0 : edited_->maps.size() - edited_->includes; }
   std::string WhyUnread(const std::string& include) const;  // a file that it includes; empty: not known
-  // Of a surface that it names: "there is no such file ..."; empty: it is there, or is not looked for.
-  std::string WhyMissing(const std::string& surface) const;
+  // The surfaces that it names; null: they are not looked for.
+  SurfaceFiles* surface_files() const { return edited_ == nullptr ? nullptr : edited_->surface_files.get(); }
   // Second <lanes> of a road, of works that come and go (OpenDRIVE 1.9), are told once and passed over.
   void PassOverTemporaryLanes();
 
@@ -103,7 +104,6 @@ class Source {
   };
   Where where;
   std::vector<Finding> errors, warnings;
-  std::vector<NamedFile> surfaces;
 
   // Adds an error at a line of the original text, in the road, lane and s of `where`; none beyond most_findings.
   void Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair);

@@ -133,14 +133,10 @@ std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file) {
 }
 
 base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file) {
-  const auto place_of = [&](const network::Road& road, std::size_t surface) {
-    std::size_t at = 0;
-    for (const opendrive::NamedFile& named : import.surfaces) {
-      if (named.road == road.id() && at++ == surface) return fmt::format("{}:{}", file.string(), named.line);
-    }
-    return file.string();
-  };
-  return SurfaceDetail::Load(*import.network, file.parent_path(), PatchesOf(*import.network), place_of);
+  SurfaceDetail::FileOf file_of;
+  if (import.surface_files != nullptr)
+    file_of = [&import](const std::string& name) { return import.surface_files->Read(name); };
+  return SurfaceDetail::Load(*import.network, file.parent_path(), PatchesOf(*import.network), file_of);
 }
 
 std::optional<base::Error> NothingToDrive(const network::Network& network, const std::filesystem::path& file) {

@@ -33,8 +33,7 @@ StartPose PoseOn(const network::Network& network, const network::LaneKey& key, d
 // is 2 m wide; at the origin where there is none.
 StartPose StartOn(const network::Network& network);
 
-// The measured and made surfaces of the file's roads. Wrong input, with the file's line, where one cannot be read or
-// laid.
+// The measured and made surfaces of the file's roads. Those that an import keeps can be read.
 base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file);
 
 // What was repaired in the file, and lanes that end in a junction: one sentence a kind, with the first place.

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "common/core/base/bytes.hpp"
-#include "common/core/base/suggest.hpp"
 #include "common/world/surface/crg_file.hpp"
 #include "common/world/surface/crg_smooth.hpp"
 
@@ -92,20 +91,8 @@ struct SurfaceDetail::Measured {
   bool inside = false;
 };
 
-base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& road, const network::CrgSurface& crg,
-                                                          std::shared_ptr<const surface::CrgSurface> file) {
-  const std::vector<std::string> modes = {"attached", "attached0", "genuine", "global"};
-  const auto wrong = [&](std::string_view what, const std::string& found, const std::vector<std::string>& known) {
-    return base::WrongInput(
-        "surface.unknown_word",
-        fmt::format("'{}' is no {} of a measured surface{}", found, what, base::DidYouMean(found, known)),
-        fmt::format("road {}, s {:g}, '{}'", road.id(), crg.s_start_m, crg.file));
-  };
-  if (std::find(modes.begin(), modes.end(), crg.mode) == modes.end()) return wrong("mode", crg.mode, modes);
-  if (crg.orientation != "same" && crg.orientation != "opposite")
-    return wrong("orientation", crg.orientation, {"same", "opposite"});
-  if (crg.purpose != "elevation" && crg.purpose != "friction")
-    return wrong("purpose", crg.purpose, {"elevation", "friction"});
+SurfaceDetail::Stretch SurfaceDetail::Place(const network::Road& road, const network::CrgSurface& crg,
+                                            std::shared_ptr<const surface::CrgSurface> file) {
   Stretch stretch{crg.s_start_m,   crg.s_end_m,
                   crg.s_offset_m,  nullptr,
                   std::move(file), 0,
@@ -129,37 +116,31 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
 }
 
 base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder,
-                                                std::span<const network::Laid> laid, const PlaceOf& place_of) {
+                                                std::span<const network::Laid> laid, const FileOf& file_of) {
   SurfaceDetail detail;
   std::map<std::string, std::shared_ptr<const surface::CrgSurface>> files;
   base::ByteWriter numbers;
   for (std::uint32_t i = 0; i < network.roads().size(); ++i) {
     const network::RoadSpec& spec = network.roads()[i].spec();
     std::vector<Stretch> stretches;
-    for (std::size_t k = 0; k < spec.crg.size(); ++k) {
-      const network::CrgSurface& crg = spec.crg[k];
-      const auto placed = [&](const base::Error& error) {
-        return error.In(place_of ? place_of(network.roads()[i], k) : std::string());
-      };
+    for (const network::CrgSurface& crg : spec.crg) {
       const std::filesystem::path named = crg.file;
       const std::string path = (named.is_absolute() ? named : folder / named).string();
       auto& file = files[path];
       if (file == nullptr) {
-        auto loaded = surface::LoadCrg(path);
-        if (!loaded)
-          return placed(loaded.error().In(fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
+        auto loaded = file_of ? file_of(crg.file) : surface::LoadCrg(path);
+        if (!loaded) return loaded.error().In(fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m));
         file = loaded.value().surface;
         const std::vector<std::string>& said = loaded.value().warnings;
         if (!said.empty())
           detail.warnings_.push_back(fmt::format("{}: {}{}", path, said.front(),
                                                  said.size() > 1 ? fmt::format(" ({} warnings)", said.size()) : ""));
       }
-      auto stretch = Place(network.roads()[i], crg, file);
-      if (!stretch) return placed(stretch.error());
+      Stretch stretch = Place(network.roads()[i], crg, file);
       const std::size_t before = numbers.bytes().size();
       PutAll(*file, numbers);
-      stretch.value().source = base::Hash(std::span(numbers.bytes()).subspan(before));
-      stretches.push_back(std::move(stretch).value());
+      stretch.source = base::Hash(std::span(numbers.bytes()).subspan(before));
+      stretches.push_back(std::move(stretch));
     }
     for (const network::Unevenness& uneven : spec.unevenness) {
       stretches.push_back(

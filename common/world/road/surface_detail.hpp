@@ -16,6 +16,7 @@
 #include "common/world/road/lane_grounds.hpp"
 #include "common/world/road/surface_fade.hpp"
 #include "common/world/road/surface_point.hpp"
+#include "common/world/surface/crg_file.hpp"
 #include "common/world/surface/crg_surface.hpp"
 #include "common/world/surface/roughness.hpp"
 
@@ -26,12 +27,11 @@ namespace rodeira::road {
 class SurfaceDetail {
  public:
   SurfaceDetail() = default;
-  // Wrong input where a measured surface cannot be read, or is laid in a way that OpenDRIVE does not know. Relative
-  // names are those of files beside `folder`. laid: by road, or nothing. place_of: where a measured surface is asked
-  // for ("file:line"), for the errors; nothing, or an empty text: not known.
-  using PlaceOf = std::function<std::string(const network::Road& road, std::size_t surface)>;
+  // Wrong input where a measured surface cannot be read. Relative names are those of files beside `folder`. laid: by
+  // road, or nothing. file_of: a surface by the name that the network says; nothing: it is loaded.
+  using FileOf = std::function<base::Result<surface::CrgFile>(const std::string& name)>;
   static base::Result<SurfaceDetail> Load(const network::Network& network, const std::filesystem::path& folder,
-                                          std::span<const network::Laid> laid = {}, const PlaceOf& place_of = {});
+                                          std::span<const network::Laid> laid = {}, const FileOf& file_of = {});
 
   bool empty() const { return roads_.empty() && laid_.empty(); }
   // Whether anything is there between two stations of a road.
@@ -89,8 +89,8 @@ class SurfaceDetail {
     Eigen::Vector2d turn = Eigen::Vector2d::UnitX(), from_W = Eigen::Vector2d::Zero(), to_W = Eigen::Vector2d::Zero();
   };
   struct Measured;
-  static base::Result<Stretch> Place(const network::Road& road, const network::CrgSurface& crg,
-                                     std::shared_ptr<const surface::CrgSurface> file);
+  static Stretch Place(const network::Road& road, const network::CrgSurface& crg,
+                       std::shared_ptr<const surface::CrgSurface> file);
   static std::optional<Raised> HeightOf(const Stretch& stretch, double s_m, double t_m,
                                         const network::SurfaceSample& sample, Share& ends);
   void FindWays(const network::Network& network);

@@ -34,7 +34,10 @@ class MeasuredRoad : public testing::Test {
 
   // An arc to the left about (0, 100) that climbs, with the made surface laid on it.
   base::Result<std::shared_ptr<const World>> Load(const std::string& attributes, const surface::MadeCrg& crg) const {
-    EXPECT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg.Text())).ok());
+    return LoadWith(attributes, crg.Text());
+  }
+  base::Result<std::shared_ptr<const World>> LoadWith(const std::string& attributes, const std::string& crg) const {
+    EXPECT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg)).ok());
     opendrive::RoadText road;
     road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="100"><arc curvature="{}"/></geometry>)",
                                 1.0 / kRadius_m);
@@ -164,14 +167,29 @@ TEST_F(MeasuredRoad, ItsNumbersArePartOfTheContentHash) {
   EXPECT_NE(MustLoad(attributes, Crg())->content_hash(), MustLoad(attributes, other)->content_hash());
 }
 
-TEST_F(MeasuredRoad, WhatCannotBeLaidIsSaid) {
-  EXPECT_THAT(Load(R"(orientation="same" mode="atached")", Crg()).error().Text(),
-              testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 20, 'made.crg': 'atached' is no mode of a measured "
-                                     "surface; did you mean 'attached'?"));
-  EXPECT_THAT(Load(R"(orientation="left" mode="attached")", Crg()).error().Text(),
-              HasSubstr("'left' is no orientation of a measured surface"));
-  EXPECT_THAT(Load(R"(orientation="same" mode="attached" purpose="colour")", Crg()).error().Text(),
-              HasSubstr("'colour' is no purpose"));
+// Each misspelt word is read as the nearest one, so the surface lies as if that stood there.
+TEST_F(MeasuredRoad, MisspeltWordsAreReadAsTheNearest) {
+  const std::string right = R"(orientation="opposite" mode="attached0" purpose="elevation")";
+  const auto meant = MustLoad(right, Crg());
+  for (const std::string wrong :
+       {R"(orientation="oposite" mode="attached0")", R"(orientation="opposite" mode="Attached0")",
+        R"(orientation="opposite" mode="attached0" purpose="elevatoin")"}) {
+    const auto world = Load(wrong, Crg());
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    ExpectHeights(*world.value(), [&](const OnArc& at) { return meant->At(at.p().x(), at.p().y()).z_m; });
+    EXPECT_THAT(world.value()->warnings(),
+                testing::ElementsAre(testing::ContainsRegex("[.]xodr:[0-9]+: road.surface.crg.*it is read as '")));
+  }
+}
+
+TEST_F(MeasuredRoad, AWordThatIsLikeNoneLeavesTheSurfaceOut) {
+  for (const std::string wrong : {R"(orientation="left" mode="attached")", R"(orientation="same" mode="hovering")",
+                                  R"(orientation="same" mode="attached" purpose="colour")"}) {
+    const auto world = Load(wrong, Crg());
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    ExpectHeights(*world.value(), [](const OnArc& at) { return OfRoad(at.s); });
+    EXPECT_THAT(world.value()->warnings(), testing::ElementsAre(HasSubstr("<CRG> is passed over")));
+  }
 }
 
 TEST_F(MeasuredRoad, AMissingFileIsLeftOutWithOneWarningAndTheOthersAreLaid) {
@@ -183,6 +201,21 @@ TEST_F(MeasuredRoad, AMissingFileIsLeftOutWithOneWarningAndTheOthersAreLaid) {
               testing::ElementsAre(testing::ContainsRegex(
                   "[.]xodr:[0-9]+: rodeira.surface.file: road 1, s 40: .*'none.crg'.*no such file.*2 of this kind")));
   ExpectHeights(*missing.value(), [](const OnArc& at) { return OfRoad(at.s) + Made(at.s - kBegin_m, at.t); });
+}
+
+// A file that is cut in its head or in its numbers, or holds something else, is left out with a warning for all.
+TEST_F(MeasuredRoad, ADamagedFileIsLeftOutWithOneWarning) {
+  const std::string whole = Crg().Text(), head = Crg().Head();
+  const std::string again = R"(orientation="same" mode="attached"/><CRG file="made.crg" sStart="60" sEnd="70")";
+  for (const std::string& text : {whole.substr(0, head.size() / 2), whole.substr(0, head.size() + 150), std::string(),
+                                  std::string("<html></html>"), std::string(head.size(), '\0')}) {
+    const auto world = LoadWith(again, text);
+    ASSERT_TRUE(world.ok()) << world.error().Text();
+    EXPECT_THAT(world.value()->warnings(),
+                testing::ElementsAre(testing::ContainsRegex(
+                    "[.]xodr:[0-9]+: rodeira.surface.damaged: road 1, s 20: .*made.crg.*2 of this kind")));
+    ExpectHeights(*world.value(), [](const OnArc& at) { return OfRoad(at.s); });
+  }
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/core/base/files.hpp"
-#include "tests/common/world/surface/made_crg.hpp"
 #include "tests/launch/rodeira/commands/world_fixture.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/names.hpp"
@@ -48,55 +47,6 @@ TEST(WorldCheck, StrictlyAsAsamsOwnToleranceAsks) {
       system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.out, HasSubstr("'--strict' is for OpenDRIVE files"));
-}
-
-// A surface that the file names is part of the check: missing, or laid in no way that there is, it is named with the
-// file's line.
-TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
-  const TemporaryFolder folder;
-  const auto check = [&](const std::string& surface) {
-    const fs::path file = folder.Write(
-        "s.xodr",
-        "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" "
-        "junction=\"-1\">\n"
-        "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
-        "length=\"60\"><line/></geometry></planView>\n<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
-        "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
-        "d=\"0\"/></lane></right></laneSection></lanes>\n<surface>\n" +
-            surface + "\n</surface></road>\n</OpenDRIVE>\n");
-    return system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
-  };
-  folder.Write("bumps.crg", surface::MadeCrg().Text());
-  EXPECT_EQ(check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)").status, 0);
-  const system_test::Ended missing =
-      check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
-  EXPECT_EQ(missing.status, 0);
-  EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_THAT(missing.out, Names("s.xodr:8: rodeira.surface.file: … 'bumps.crg'"));
-  const fs::path file = folder.path() / "s.xodr", repaired = folder.path() / "repaired.xodr";
-  const auto again = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {system_test::Bin("rodeira"), "world", "check"});
-    return system_test::RunCommand(options);
-  };
-  const system_test::Ended strict = again({"--strict", file.string()});
-  EXPECT_EQ(strict.status, 2);
-  EXPECT_THAT(strict.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
-  EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
-  const system_test::Ended mode =
-      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
-  EXPECT_EQ(mode.status, 2);
-  EXPECT_THAT(mode.out, Names("s.xodr:8: road 1, s 0, 'bumps.crg': … 'attachd' … 'attached'"));
-  const system_test::Ended beyond =
-      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
-  EXPECT_EQ(beyond.status, 0);
-  EXPECT_THAT(beyond.out, HasSubstr("s.xodr:8: road.surface.crg.s: road 1: the measured surface 'bumps.crg' lies from "
-                                    "s = 0 to 9000; two places on the road, which is 60 m long, were expected; "
-                                    "repaired: it is cut at the road's end"));
-  EXPECT_EQ(system_test::RunCommand(
-                {system_test::Bin("rodeira"), "world", "check", "--strict", (folder.path() / "s.xodr").string()})
-                .status,
-            2);
 }
 
 // What the traffic of a run would refuse, the check says before: lights that are green together where their ways cross,
