@@ -71,6 +71,40 @@ TEST(OpenDrive, EveryInvalidFileIsRefusedByItsRule) {
   }
 }
 
+// Strictly each is refused by its rule; by default it is driven, and that rule's repair is named.
+TEST(OpenDrive, EveryInvalidFileIsRefusedStrictlyAndRepairedByDefault) {
+  const auto files = RealFiles("invalid");
+  if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
+  using RulesAndKinds = std::vector<std::pair<std::string, std::string>>;
+  const std::map<std::string, RulesAndKinds> expected = {
+      {"asamqc_geometry_ascending_order.xodr", {{"road.geometry.elem_asc_order", "element.sorted"}}},
+      {"asamqc_geometry_contact_point.xodr", {{"road.geometry.contact_point", "road.links_by_lanes"}}},
+      {"asamqc_junction_needed.xodr", {{"road.linkage.is_junction_needed", "road.links_by_lanes"}}},
+      {"asamqc_link_to_missing_lane.xodr", {{"road.lane.link.lanes_across_lane_sections", "lane.link_dropped"}}},
+      {"asamqc_smoothness_many.xodr",
+       {{"road.geometry.contact_point", "geometry.gap_bridged"},
+        {"lane_smoothness.contact_point_no_horizontal_gaps", "lane.gap_driven"},
+        {"lane_smoothness.contact_point_no_vertical_gaps", "surface.step_kept"}}}};
+  for (const auto& file : files) {
+    const auto strictly = Load(file, Tolerance::Strict()), usual = Load(file);
+    ASSERT_TRUE(strictly.ok() && usual.ok()) << file;
+    EXPECT_EQ(strictly.value().network, nullptr) << file;
+    EXPECT_NE(usual.value().network, nullptr) << file;
+    EXPECT_TRUE(usual.value().errors.empty()) << file;
+    const auto known = expected.find(file.filename());
+    ASSERT_TRUE(known != expected.end()) << file << " is not in this test's table";
+    for (const auto& [rule, kind] : known->second) {
+      const auto has = [&rule = rule](const std::vector<Finding>& findings, const std::string& name) {
+        return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+          return finding.rule == rule && finding.repair.Name() == name;
+        });
+      };
+      EXPECT_TRUE(has(strictly.value().errors, "")) << file << " " << rule;
+      EXPECT_TRUE(has(usual.value().warnings, kind)) << file << " " << rule << " " << kind;
+    }
+  }
+}
+
 TEST(OpenDrive, AnErrorHasTheIdOfItsRule) {
   const auto id = [](const std::string& rule) {
     Finding finding;
