@@ -16,7 +16,9 @@ void AddShell(CLI::App& app, ChosenCommand& chosen) {
     options->command = "completion";
     return Shell(*options, app);
   });
-  chosen.When(*app.add_subcommand("manual", "print the manual page (roff)"), [options, &app] {
+  CLI::App* manual = app.add_subcommand("manual", "print the manual page (roff)");
+  manual->add_flag("--markdown", options->markdown, "commands and options as Markdown");
+  chosen.When(*manual, [options, &app] {
     options->command = "manual";
     return Shell(*options, app);
   });

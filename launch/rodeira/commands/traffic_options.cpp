@@ -23,7 +23,7 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
       ->check(Between(0.001, 1.0));
   run->add_option("--seed", options->seed, "random seed")->check(WholeNumber());
   run->add_option("--driver", options->driver,
-                  "the driver model: standard, or motors, as MOTORS' own driver (with full physics)")
+                  "driver model: standard, or motors, as MOTORS' own driver does (with full physics)")
       ->check(OneOf({"standard", "motors"}));
   run->add_option("--physics", options->physics,
                   "how cars move: planar, along their paths, or full, as the driver's car does")

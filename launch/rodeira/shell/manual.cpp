@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
 namespace rodeira::cli {
 namespace {
 
@@ -54,7 +58,83 @@ std::string Section(const CommandEntry& command) {
   return text;
 }
 
+// Lines of at most so many columns.
+constexpr std::size_t kMarkdownColumns = 120;
+
+// The text in lines, those after the first indented; a piece of code stays in one line.
+std::string Wrapped(const std::string& text, const std::string& indent) {
+  std::string wrapped, line;
+  std::istringstream words(text);
+  std::string word, piece;
+  const auto add = [&](const std::string& one) {
+    if (!line.empty() && line.size() + 1 + one.size() > kMarkdownColumns) {
+      wrapped += line + "\n";
+      line = indent + one;
+    } else {
+      line += (line.empty() ? "" : " ") + one;
+    }
+  };
+  while (words >> word) {
+    piece += (piece.empty() ? "" : " ") + word;
+    if (std::ranges::count(piece, '`') % 2 != 0) continue;
+    add(piece);
+    piece.clear();
+  }
+  if (!piece.empty()) add(piece);
+  return wrapped + line + "\n";
+}
+
+// Text of Markdown: signs that would be markup are literal, but pieces of code stay.
+std::string Literal(const std::string& text) {
+  std::string literal;
+  bool is_code = false;
+  for (const char c : text) {
+    if (c == '`') is_code = !is_code;
+    if (!is_code && (c == '*' || c == '<' || c == '_')) literal += '\\';
+    literal += c;
+  }
+  return literal;
+}
+
+std::string Item(const OptionEntry& option) {
+  std::string names;
+  for (const std::string& name : option.names) {
+    const bool has_value = !option.value.empty() && &name == &option.names.back();
+    names += (names.empty() ? "`" : ", `") + name + (has_value ? " " + option.value : "") + "`";
+  }
+  return Wrapped("- " + names + ": " + Literal(option.description), "  ");
+}
+
+// As a sentence.
+std::string Sentence(std::string text) {
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return Wrapped(Literal(text) + (text.ends_with('.') ? "" : "."), "");
+}
+
+std::string MarkdownSection(const CommandEntry& command, const CommandEntry& program) {
+  std::string heading = command.path;
+  for (const OptionEntry& option : command.options) {
+    if (option.is_argument) heading += option.required ? " " + option.names.front() : " [" + option.names.front() + "]";
+  }
+  const bool is_inner = std::ranges::count(command.path, ' ') > 1;
+  std::string text = fmt::format("{} `{}`\n\n{}", is_inner ? "###" : "##", heading, Sentence(command.description));
+  std::string items;
+  for (const OptionEntry& option : command.options) {
+    const bool is_everywhere =
+        std::ranges::find(program.options, option.names, &OptionEntry::names) != program.options.end();
+    if (&command == &program || !is_everywhere) items += Item(option);
+  }
+  return text + (items.empty() ? "" : "\n" + items);
+}
+
 }  // namespace
+
+std::string ManualMarkdown(const std::vector<CommandEntry>& table) {
+  std::string page;
+  for (const CommandEntry& command : table)
+    page += (page.empty() ? "" : "\n") + MarkdownSection(command, table.front());
+  return page;
+}
 
 std::string ManualPage(const std::vector<CommandEntry>& table, const std::string& version) {
   const CommandEntry& program = table.front();

@@ -12,7 +12,7 @@ namespace rodeira::cli {
 int Shell(const ShellOptions& options, const CLI::App& app) {
   const std::vector<CommandEntry> table = CommandTable(app);
   if (options.command == "manual")
-    fmt::print("{}", ManualPage(table, std::string(base::Version())));
+    fmt::print("{}", options.markdown ? ManualMarkdown(table) : ManualPage(table, std::string(base::Version())));
   else
     fmt::print("{}", options.shell == "zsh" ? ZshCompletion(table) : BashCompletion(table));
   return 0;

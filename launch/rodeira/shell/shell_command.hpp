@@ -6,10 +6,11 @@
 
 namespace rodeira::cli {
 
-// `rodeira completion bash|zsh`, `rodeira manual`
+// `rodeira completion bash|zsh`, `rodeira manual [--markdown]`
 struct ShellOptions {
   std::string command;  // "completion" or "manual"
   std::string shell;
+  bool markdown = false;
 };
 
 // Prints the script or the page for the commands of `app`. Returns the exit status.

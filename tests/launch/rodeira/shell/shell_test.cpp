@@ -103,5 +103,28 @@ TEST(Completion, TextsWithSignsOfTheShellAreTexts) {
       page, AllOf(HasSubstr("\n\\&.hidden"), HasSubstr("it's $HOME: `id` \\e \"quoted\""), HasSubstr("Rodeira 1.2.3")));
 }
 
+// Commands in commands are a level deeper; what the program itself has stands there only.
+TEST(Manual, MarkdownHasEachCommandWithItsOptions) {
+  CLI::App app{"a program"};
+  app.name("rodeira");
+  std::string text;
+  bool json = false;
+  app.add_flag("--json", json, "errors as JSON");
+  CLI::App* outer = app.add_subcommand("outer", "the *outer* one");
+  CLI::App* inner = outer->add_subcommand("inner", "the inner one");
+  inner->add_flag("--json", json, "errors as JSON");
+  inner->add_option("FILE", text, "a file_name <here>, as `a * b`")->required();
+  inner->add_option("-o,--out", text, std::string(20, 'a') + " " + std::string(100, 'b'));
+  inner->add_option("--secret", text)->group("");
+  EXPECT_EQ(ManualMarkdown(CommandTable(app)),
+            "## `rodeira`\n\nA program.\n\n- `-h`, `--help`: Print this help message and exit\n"
+            "- `--json`: errors as JSON\n"
+            "\n## `rodeira outer`\n\nThe \\*outer\\* one.\n"
+            "\n### `rodeira outer inner FILE`\n\nThe inner one.\n\n"
+            "- `FILE`: a file\\_name \\<here>, as `a * b`\n"
+            "- `-o`, `--out TEXT`: " +
+                std::string(20, 'a') + "\n  " + std::string(100, 'b') + "\n");
+}
+
 }  // namespace
 }  // namespace rodeira::cli
