@@ -7,13 +7,11 @@
 #include <charconv>
 #include <optional>
 
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
+#include "common/world/traffic_map/companion_schema.hpp"
 
 namespace rodeira::traffic_map {
 namespace {
-
-constexpr double kMaxHeight_m = 1e4;
-constexpr double kMaxDistance_m = 1e5;
 
 bool HasLowerIndex(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
 
@@ -26,11 +24,17 @@ std::optional<std::int32_t> NumberOf(const config::Map& map, const std::string& 
   return std::nullopt;
 }
 
-void ReadCurves(const config::Map& all, Heights& heights) {
+// The mapping of a key with named values, and the declaration of each value.
+std::pair<config::Map, const config::Key&> NamedOf(const config::DeclaredMap& root, std::string_view key) {
+  return {root.MapWith(key).OptionalChild(key), config::FindKey(CompanionSchema().keys, key)->of.front()};
+}
+
+void ReadCurves(const config::DeclaredMap& root, Heights& heights) {
+  const auto [all, declared] = NamedOf(root, "heights_m");
   for (const std::string& key : all.Keys()) {
     CurveHeights one;
     if (const auto number = NumberOf(all, key, "curve")) one.curve = *number;
-    const std::vector<double> z = all.Numbers(key, {-kMaxHeight_m, kMaxHeight_m});
+    const std::vector<double> z = all.Numbers(key, declared.of.front().range);
     if (z.size() == one.z_m.size()) {
       std::copy(z.begin(), z.end(), one.z_m.begin());
     } else {
@@ -45,24 +49,25 @@ void ReadCurves(const config::Map& all, Heights& heights) {
   }
 }
 
-LaneSign ReadSign(const config::Map& item) {
+LaneSign ReadSign(const config::DeclaredMap& item) {
   std::vector<std::string> kinds;
   for (int i = 0; i < kSignKinds; ++i) kinds.emplace_back(NameOf(static_cast<SignKind>(i)));
   LaneSign sign;
-  sign.line = LineOf(item.Place());
-  sign.lane = static_cast<std::int32_t>(item.Integer("lane", INT32_MIN, INT32_MAX));
-  const auto kind = std::find(kinds.begin(), kinds.end(), item.Choice("kind", kinds));
+  sign.line = LineOf(item.map().Place());
+  sign.lane = static_cast<std::int32_t>(item.Integer("lane"));
+  const auto kind = std::find(kinds.begin(), kinds.end(), item.Word("kind"));
   if (kind != kinds.end()) sign.kind = static_cast<SignKind>(kind - kinds.begin());
-  sign.before_end_m = item.Number("before_end_m", {0.0, kMaxDistance_m}, 0.0);
-  if (sign.kind == SignKind::kSpeedLimit) sign.limit_kmh = item.Number("limit_kmh", {5.0, 200.0});
+  sign.before_end_m = item.Number("before_end_m");
+  if (sign.kind == SignKind::kSpeedLimit) sign.limit_kmh = item.RequiredNumber("limit_kmh");
   return sign;
 }
 
-void ReadFlows(const config::Map& all, Heights& heights) {
+void ReadFlows(const config::DeclaredMap& root, Heights& heights) {
+  const auto [all, declared] = NamedOf(root, "flows_vehph");
   for (const std::string& key : all.Keys()) {
     LaneFlow flow;
     if (const auto number = NumberOf(all, key, "lane")) flow.lane = *number;
-    flow.vehph = all.Number(key, {0.0, 10'000.0});
+    flow.vehph = all.Number(key, declared.range);
     flow.line = LineOf(all.Place(key));
     const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane,
                                      [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
@@ -73,15 +78,15 @@ void ReadFlows(const config::Map& all, Heights& heights) {
 }
 
 base::Result<Heights> Read(config::File& file) {
-  const config::Map root = file.root();
-  (void)root.Choice("rodeira", {"motors/1"});
+  const config::DeclaredMap root(file.root(), CompanionSchema().keys);
+  (void)root.Word("rodeira");
   Heights heights;
-  const config::List lights = root.OptionalItems("lights"), signs = root.OptionalItems("signs");
-  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i)));
+  const config::DeclaredList lights = root.Items("lights"), signs = root.Items("signs");
+  for (std::size_t i = 0; i < lights.size(); ++i) heights.lights.push_back(lights::ReadLightPlan(lights.At(i).map()));
   for (std::size_t i = 0; i < signs.size(); ++i) heights.signs.push_back(ReadSign(signs.At(i)));
-  heights.left_hand = root.Choice("rule", {"right", "left"}, "right") == "left";
-  ReadCurves(root.OptionalChild("heights_m"), heights);
-  ReadFlows(root.OptionalChild("flows_vehph"), heights);
+  heights.left_hand = root.Word("rule") == "left";
+  ReadCurves(root, heights);
+  ReadFlows(root, heights);
   if (const base::Status status = file.Finish(); !status) return status.error();
   return heights;
 }
