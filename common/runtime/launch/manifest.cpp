@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "common/core/base/suggest.hpp"
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
+#include "common/runtime/launch/manifest_schema.hpp"
 #include "idl/idl_source.hpp"
 #include "idl/topics.hpp"
 
@@ -47,15 +48,15 @@ class Reader {
   explicit Reader(const config::File& file) : file_(file) {}
 
   base::Result<Manifest> Read() {
-    const config::Map root = file_.root();
-    (void)root.Choice("rodeira", {"node/1"});
+    const config::DeclaredMap root(file_.root(), ManifestSchema().keys);
+    (void)root.Word("rodeira");
     manifest_.kind.name = kExternalKind;
-    manifest_.kind.default_period_s = root.Number("period_s", config::Range::Positive());
-    if (root.Has("delay_s")) manifest_.kind.default_delay_s = root.Number("delay_s", config::Range::Positive());
-    manifest_.kind.can_save = root.Flag("can_save", true);
-    const config::List outputs = root.OptionalItems("outputs");
+    manifest_.kind.default_period_s = root.Number("period_s");
+    if (const auto delay_s = root.OptionalNumber("delay_s")) manifest_.kind.default_delay_s = *delay_s;
+    manifest_.kind.can_save = root.Flag("can_save");
+    const config::DeclaredList outputs = root.Items("outputs");
     for (std::size_t i = 0; i < outputs.size(); ++i) ReadOutput(outputs.At(i));
-    const config::List inputs = root.OptionalItems("inputs");
+    const config::DeclaredList inputs = root.Items("inputs");
     for (std::size_t i = 0; i < inputs.size(); ++i) ReadInput(inputs.At(i));
     if (auto status = file_.Finish(); !status) return status.error();
     if (problem_) return *problem_;
@@ -63,8 +64,9 @@ class Reader {
   }
 
  private:
-  void ReadOutput(const config::Map& map) {
-    const std::string topic = map.Text("topic");
+  void ReadOutput(const config::DeclaredMap& declared) {
+    const config::Map& map = declared.map();
+    const std::string topic = declared.Text("topic");
     auto& outputs = manifest_.kind.outputs;
     if (std::ranges::find(outputs, topic) != outputs.end())
       return map.Problem("topic", "config.duplicate_name", fmt::format("output '{}' is there twice", topic));
@@ -88,10 +90,10 @@ class Reader {
                       "as in lab/gaze",
                       topic));
     }
-    const std::string type = map.Text("type");
+    const std::string type = declared.MapWith("type").Text("type");
     if (!map.Has("idl"))
       return map.Problem("topic", "config.missing_key", fmt::format("key 'idl' of output '{}' is missing", topic));
-    const std::filesystem::path path = map.Path("idl");
+    const std::filesystem::path path = declared.MapWith("idl").Path("idl");
     if (!type.empty() && !topic.empty()) AddTopic(map, topic, type, path);
   }
   void AddTopic(const config::Map& map, const std::string& topic, const std::string& type,
@@ -111,13 +113,14 @@ class Reader {
     manifest_.topics.push_back({topic, type, source.value().text(), parsed.value()});
     manifest_.topic_places.push_back(map.Place("topic"));
   }
-  void ReadInput(const config::Map& map) {
+  void ReadInput(const config::DeclaredMap& declared) {
+    const config::Map& map = declared.map();
     KindPort port;
-    port.topic = map.Text("topic");
-    const std::string kind = map.Choice("port", {"state", "event"});
+    port.topic = declared.Text("topic");
+    const std::string kind = declared.Word("port");
     port.kind = kind == "event" ? lockstep::PortKind::kEvent : lockstep::PortKind::kState;
-    port.many = map.Flag("many", false);
-    port.required = map.Flag("required", true);
+    port.many = declared.Flag("many");
+    port.required = declared.Flag("required");
     for (const KindPort& other : manifest_.kind.inputs) {
       if (other.topic == port.topic)
         map.Problem("topic", "config.duplicate_name", fmt::format("input '{}' is there twice", port.topic));
