@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/world/network/furniture.hpp"
 
@@ -12,7 +13,14 @@
 // the type -1).
 namespace rodeira::network {
 
-// Of the kinds of SignKindNames(); nothing: it is none of these.
+// What the numbers of a catalogue begin with, and the kind that they are.
+struct CatalogueRow {
+  std::string_view country, code, kind;
+};
+// All rows of the United States (US), the United Kingdom (GB) and China (CN); more particular ones first.
+std::vector<CatalogueRow> CataloguesAbroad();
+
+// Of the kinds of SignKindNames(); nothing: it is none of these. Capitals and small letters are the same.
 std::optional<std::string_view> SignKindAbroad(const Signal& signal);
 // The number at the end of a name of RoadRunner's; empty: none.
 std::string NumberInName(const Signal& signal);

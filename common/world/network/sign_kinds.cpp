@@ -32,7 +32,12 @@ constexpr Catalogued kCatalogue[] = {
     {"114", "", "slippery_road"},
     {"205", "", "give_way"},
     {"206", "", "stop"},
+    {"209", "", "mandatory"},
+    {"211", "", "mandatory"},
+    {"214", "", "mandatory"},
     {"215", "", "roundabout"},
+    {"220", "", "one_way"},
+    {"222", "10", "keep_left"},
     {"222", "", "keep_right"},
     {"250", "", "no_vehicles"},
     {"267", "", "no_entry"},
@@ -41,6 +46,8 @@ constexpr Catalogued kCatalogue[] = {
     {"278", "", "end_of_speed_limit"},
     {"280", "", "end_of_no_overtaking"},
     {"282", "", "end_of_restrictions"},
+    {"283", "", "no_stopping"},
+    {"286", "", "no_waiting"},
     {"301", "", "priority"},
     {"306", "", "priority_road"},
     {"307", "", "end_of_priority_road"},
@@ -60,14 +67,11 @@ constexpr Catalogued kCatalogue[] = {
     {"440", "", "guide_blue"},
     {"449", "", "guide_blue"},
     {"450", "", "exit_beacon"},
-    {"451", "", "exit_beacon"},
-    {"452", "", "exit_beacon"},
+    {"451", "", "exit_beacon_two"},
+    {"452", "", "exit_beacon_one"},
     {"605", "", "beacon"},
     {"625", "", "chevron"},
 };
-// Kinds that only other catalogues have.
-constexpr std::array<std::string_view, 6> kAbroad = {"guide_green",    "mandatory",       "prohibition",
-                                                     "speed_limit_us", "warning_diamond", "warning_yellow"};
 // Lines and crossings that are painted on the road: they have numbers, but nothing stands there.
 constexpr std::array<std::string_view, 9> kPaint = {"293", "294", "295", "296", "297", "298", "299", "340", "341"};
 
@@ -92,10 +96,11 @@ std::optional<std::string_view> SignKindOf(const Signal& signal) {
 
 std::vector<std::string_view> SignKindNames() {
   std::vector<std::string_view> names;
-  for (const Catalogued& sign : kCatalogue) {
-    if (std::find(names.begin(), names.end(), sign.kind) == names.end()) names.emplace_back(sign.kind);
-  }
-  names.insert(names.end(), kAbroad.begin(), kAbroad.end());
+  const auto add = [&](std::string_view kind) {
+    if (std::find(names.begin(), names.end(), kind) == names.end()) names.push_back(kind);
+  };
+  for (const Catalogued& sign : kCatalogue) add(sign.kind);
+  for (const CatalogueRow& row : CataloguesAbroad()) add(row.kind);
   return names;
 }
 

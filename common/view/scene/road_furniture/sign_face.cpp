@@ -14,21 +14,62 @@
 namespace rodeira::scene {
 namespace {
 
-enum class Shape { kRound, kTriangle, kTriangleDown, kOctagon, kDiamond, kRectangle };
+enum class Shape { kRound, kTriangle, kTriangleDown, kOctagon, kDiamond, kPentagon, kPennant, kRectangle };
+
+// Of a kind that is not here: a triangle, as all signs of dangers are.
+constexpr std::pair<std::string_view, Shape> kShapes[] = {
+    {"stop", Shape::kOctagon},
+    {"give_way", Shape::kTriangleDown},
+    {"priority_road", Shape::kDiamond},
+    {"end_of_priority_road", Shape::kDiamond},
+    {"warning_diamond", Shape::kDiamond},
+    {"warning_orange", Shape::kDiamond},
+    {"warning_school", Shape::kDiamond},
+    {"school", Shape::kPentagon},
+    {"pennant", Shape::kPennant},
+    {"town", Shape::kRectangle},
+    {"end_of_town", Shape::kRectangle},
+    {"motorway", Shape::kRectangle},
+    {"end_of_motorway", Shape::kRectangle},
+    {"crossing", Shape::kRectangle},
+    {"parking", Shape::kRectangle},
+    {"plate", Shape::kRectangle},
+    {"display", Shape::kRectangle},
+    {"exit_beacon", Shape::kRectangle},
+    {"exit_beacon_two", Shape::kRectangle},
+    {"exit_beacon_one", Shape::kRectangle},
+    {"beacon", Shape::kRectangle},
+    {"one_way", Shape::kRectangle},
+    {"speed_limit_us", Shape::kRectangle},
+    {"keep_right_us", Shape::kRectangle},
+    {"keep_left_us", Shape::kRectangle},
+    {"no_entry_us", Shape::kRectangle},
+    {"one_way_us", Shape::kRectangle},
+    {"prohibition_us", Shape::kRectangle},
+    {"roundabout", Shape::kRound},
+    {"no_vehicles", Shape::kRound},
+    {"no_entry", Shape::kRound},
+    {"no_stopping", Shape::kRound},
+    {"no_waiting", Shape::kRound},
+    {"speed_limit", Shape::kRound},
+    {"no_overtaking", Shape::kRound},
+    {"end_of_speed_limit", Shape::kRound},
+    {"end_of_no_overtaking", Shape::kRound},
+    {"end_of_restrictions", Shape::kRound},
+    {"keep_right", Shape::kRound},
+    {"keep_left", Shape::kRound},
+    {"mandatory", Shape::kRound},
+    {"prohibition", Shape::kRound},
+    {"restriction", Shape::kRound},
+    {"railroad", Shape::kRound},
+};
 
 Shape SignShapeOf(std::string_view kind) {
-  if (kind == "stop") return Shape::kOctagon;
-  if (kind == "give_way") return Shape::kTriangleDown;
-  if (kind == "priority_road" || kind == "end_of_priority_road" || kind == "warning_diamond") return Shape::kDiamond;
-  for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking",
-                                        "chevron_left", "chevron_right", "plate", "board", "display", "guide_blue",
-                                        "guide_green", "guide_yellow", "exit_beacon", "beacon", "speed_limit_us"}) {
-    if (kind == square) return Shape::kRectangle;
+  for (const std::string_view begin : {"board", "chevron", "guide_"}) {
+    if (kind.starts_with(begin)) return Shape::kRectangle;
   }
-  for (const std::string_view round :
-       {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking", "end_of_speed_limit",
-        "end_of_no_overtaking", "end_of_restrictions", "keep_right", "mandatory", "prohibition"}) {
-    if (kind == round) return Shape::kRound;
+  for (const auto& [name, shape] : kShapes) {
+    if (kind == name) return shape;
   }
   return Shape::kTriangle;
 }
@@ -64,7 +105,7 @@ std::string FaceOf(const network::Signal& signal, bool bends_left) {
   if (network::IsBoard(signal)) return signal.type == network::kDisplay ? "display" : "board";
   const auto kind = network::SignKindOf(signal);
   if (!kind) return "plate";
-  if (*kind == "chevron") return bends_left ? "chevron_left" : "chevron_right";
+  if (kind->starts_with("chevron")) return fmt::format("{}_{}", *kind, bends_left ? "left" : "right");
   if (*kind == "town" || *kind == "end_of_town")
     return signal.text.empty() ? std::string(*kind) : fmt::format("{} {}", *kind, signal.text);
   if (*kind == "speed_limit" || *kind == "speed_limit_us" || *kind == "end_of_speed_limit" || *kind == "downhill" ||
@@ -78,9 +119,13 @@ std::string FaceOf(const network::Signal& signal, bool bends_left) {
 
 const std::vector<std::string>& FaceKinds() {
   static const std::vector<std::string> kinds = [] {
-    std::vector<std::string> names = {"board", "chevron_left", "chevron_right", "display", "plate"};
+    std::vector<std::string> names = {"board", "display", "plate"};
     for (const std::string_view kind : network::SignKindNames()) {
-      if (kind != "chevron" && kind != "board") names.emplace_back(kind);
+      if (kind.starts_with("chevron")) {
+        for (const char* way : {"left", "right"}) names.push_back(fmt::format("{}_{}", kind, way));
+      } else if (kind != "board") {
+        names.emplace_back(kind);
+      }
     }
     std::sort(names.begin(), names.end());
     return names;
@@ -90,7 +135,7 @@ const std::vector<std::string>& FaceKinds() {
 
 Raster DrawFace(std::string_view face) {
   const auto [kind, text] = Split(face);
-  const bool wide = kind == "town" || kind == "end_of_town";
+  const bool wide = kind == "town" || kind == "end_of_town" || kind.starts_with("one_way");
   Canvas canvas(wide ? 192 : 128, 128, Colour::Of(0x9a9d9f));
   switch (SignShapeOf(kind)) {
     case Shape::kRound:
@@ -101,6 +146,10 @@ Raster DrawFace(std::string_view face) {
       break;
     case Shape::kRectangle:
       DrawRectangle(canvas, kind, text);
+      break;
+    case Shape::kPentagon:
+    case Shape::kPennant:
+      DrawPointed(canvas, kind);
       break;
     default:
       DrawPriority(canvas, kind);
@@ -129,6 +178,10 @@ std::vector<Eigen::Vector2d> PlateOutline(std::string_view face) {
       return RoundTriangle(false);
     case Shape::kTriangleDown:
       return RoundTriangle(true);
+    case Shape::kPentagon:
+      return {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {0.5, 1.0}, {0.0, 0.5}};
+    case Shape::kPennant:
+      return {{0.0, 0.0}, {1.0, 0.5}, {0.0, 1.0}};
     case Shape::kRectangle:
       break;
   }
@@ -145,7 +198,12 @@ Eigen::Vector2d UsualPlate_m(std::string_view face) {
       return {0.9, 0.9};
     case Shape::kRectangle:
       if (kind == "town" || kind == "end_of_town") return {1.0, 0.65};
+      if (kind.starts_with("one_way")) return {0.9, 0.3};
       break;
+    case Shape::kPentagon:
+      return {0.9, 0.9};
+    case Shape::kPennant:
+      return {1.2, 0.9};
     default:
       break;
   }

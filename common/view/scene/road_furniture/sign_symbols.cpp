@@ -14,7 +14,9 @@ namespace {
 using P = Eigen::Vector2d;
 
 const Colour kWhite = Colour::Of(0xf4f4f1), kRed = Colour::Of(0xc2151d), kBlue = Colour::Of(0x17509b),
-             kYellow = Colour::Of(0xf6b915), kBlack = Colour::Of(0x131313), kGrey = Colour::Of(0x8f9294);
+             kYellow = Colour::Of(0xf6b915), kBlack = Colour::Of(0x131313), kGrey = Colour::Of(0x8f9294),
+             kGreen = Colour::Of(0x006b54), kBrown = Colour::Of(0x693f23), kOrange = Colour::Of(0xf07c14),
+             kLime = Colour::Of(0xc5e72e);
 
 // The shape made smaller about a point by a factor.
 Polyline Smaller(const Polyline& line, const P& about, double factor) {
@@ -103,6 +105,35 @@ void Walker(Canvas& canvas) {
   for (const double x : {-0.42, -0.14, 0.14, 0.42}) canvas.Bar({x - 0.07, -0.64}, {x + 0.07, -0.64}, 0.08, kBlack);
 }
 
+// Signs of the United States that are round elsewhere.
+void American(Canvas& canvas, const std::string& kind) {
+  const double w = canvas.half_width();
+  const auto box = [&](double border, Colour colour) {
+    canvas.Fill(Polyline{P(border - w, border - 1.0), P(w - border, border - 1.0), P(w - border, 1.0 - border),
+                         P(border - w, 1.0 - border)},
+                colour);
+  };
+  const P middle(0.0, 0.0);
+  box(0.0, kBlack);
+  if (kind == "one_way_us") return Arrow(canvas, {P(-1.1, 0.0), P(0.5, 0.0)}, 0.36, kWhite);
+  box(0.05, kWhite);
+  if (kind == "no_entry_us") {
+    canvas.Disc(middle, 0.86, kRed);
+    return canvas.Bar({-0.62, 0.0}, {0.62, 0.0}, 0.26, kWhite);
+  }
+  if (kind == "prohibition_us") {
+    canvas.Disc(middle, 0.82, kRed);
+    canvas.Disc(middle, 0.64, kWhite);
+    return canvas.Bar({-0.46, 0.46}, {0.46, -0.46}, 0.15, kRed);
+  }
+  const double side = kind == "keep_left_us" ? -1.0 : 1.0;  // around an island
+  canvas.Fill(Polyline{P(side * -0.55, -0.75), P(side * -0.1, -0.75), P(side * -0.1, -0.1), P(side * -0.32, 0.25),
+                       P(side * -0.55, -0.1)},
+              kBlack);
+  Arrow(canvas, {P(side * -0.35, 0.75), P(side * -0.35, 0.5), P(side * 0.3, -0.05), P(side * 0.3, -0.45)}, 0.15,
+        kBlack);
+}
+
 }  // namespace
 
 void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text) {
@@ -113,16 +144,34 @@ void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text)
     for (const double turn : {0.0, 120.0, 240.0}) Arrow(canvas, Arc(middle, 0.5, turn, turn + 70.0), 0.16, kWhite);
     return;
   }
-  if (kind == "keep_right" || kind == "mandatory") {
+  if (kind == "keep_right" || kind == "keep_left" || kind == "mandatory") {
     canvas.Disc(middle, 1.1, kWhite);
     canvas.Disc(middle, 0.95, kBlue);
-    if (kind == "keep_right") Arrow(canvas, {P(-0.42, 0.42), P(0.3, -0.3)}, 0.2, kWhite);
+    const double side = kind == "keep_left" ? -1.0 : 1.0;
+    if (kind != "mandatory") Arrow(canvas, {P(side * -0.42, 0.42), P(side * 0.3, -0.3)}, 0.2, kWhite);
     return;
   }
-  if (kind == "prohibition") {
+  if (kind == "prohibition" || kind == "restriction") {
     canvas.Disc(middle, 1.1, kRed);
     canvas.Disc(middle, 0.76, kWhite);
+    if (kind == "restriction") return Car(canvas, middle, 0.42, kBlack);
     return canvas.Bar({-0.52, 0.52}, {0.52, -0.52}, 0.16, kRed);
+  }
+  if (kind == "no_stopping" || kind == "no_waiting") {
+    canvas.Disc(middle, 1.1, kRed);
+    canvas.Disc(middle, 0.8, kBlue);
+    canvas.Bar({-0.58, 0.58}, {0.58, -0.58}, 0.16, kRed);
+    if (kind == "no_stopping") canvas.Bar({-0.58, -0.58}, {0.58, 0.58}, 0.16, kRed);
+    return;
+  }
+  if (kind == "railroad") {
+    canvas.Disc(middle, 1.1, kBlack);
+    canvas.Disc(middle, 0.93, kYellow);
+    for (const double side : {-1.0, 1.0}) {
+      canvas.Bar({-0.62, side * -0.62}, {0.62, side * 0.62}, 0.14, kBlack);
+      Letter(canvas, "R", {side * 0.56, 0.0}, 0.42, 0.6, kBlack);
+    }
+    return;
   }
   if (kind == "no_entry") {
     canvas.Disc(middle, 1.1, kWhite);
@@ -191,12 +240,17 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     return;
   }
   if (kind.starts_with("chevron")) {
-    ground(kRed, kRed, 0.0);
-    const double side = kind == "chevron_left" ? -1.0 : 1.0;
+    const bool yellow = kind.starts_with("chevron_yellow");
+    const Colour under = yellow                              ? kYellow
+                         : kind.starts_with("chevron_black") ? kBlack
+                         : kind.starts_with("chevron_blue")  ? kBlue
+                                                             : kRed;
+    ground(under, under, 0.0);
+    const double side = kind.ends_with("_left") ? -1.0 : 1.0;
     for (const double x : {-0.75, 0.1}) {
       canvas.Fill(Polyline{P(side * x, -1.0), P(side * (x + 0.4), -1.0), P(side * (x + 0.85), 0.0),
                            P(side * (x + 0.4), 1.0), P(side * x, 1.0), P(side * (x + 0.45), 0.0)},
-                  kWhite);
+                  yellow ? kBlack : kWhite);
     }
     return;
   }
@@ -206,13 +260,30 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     Letter(canvas, "LIMIT", {0.0, 0.28}, 0.3, 1.6, kBlack);
     return Letter(canvas, text, {0.0, -0.42}, 0.8, 1.6, kBlack);
   }
+  if (kind.ends_with("_us")) return American(canvas, kind);
+  if (kind == "one_way") {
+    ground(kWhite, kBlue, 0.07);
+    return Arrow(canvas, {P(-1.1, 0.0), P(0.6, 0.0)}, 0.3, kWhite);
+  }
   if (kind == "guide_yellow") return ground(kBlack, kYellow, 0.06);
-  if (kind == "guide_green") return ground(kWhite, Colour::Of(0x006b54), 0.07);
-  if (kind == "exit_beacon" || kind == "beacon") {  // stripes that fall towards the road
-    const bool blue = kind == "exit_beacon";
-    ground(kWhite, blue ? kBlue : kWhite, 0.07);
-    for (const double y : {-0.6, 0.0, 0.6})
-      canvas.Bar({-0.7, y - 0.2}, {0.7, y + 0.2}, blue ? 0.16 : 0.28, blue ? kWhite : kRed);
+  if (kind == "guide_green") return ground(kWhite, kGreen, 0.07);
+  if (kind == "guide_brown") return ground(kWhite, kBrown, 0.07);
+  if (kind == "board_yellow") return ground(kBlack, kYellow, 0.03);
+  if (kind == "board_orange") return ground(kBlack, kOrange, 0.05);
+  if (kind == "board_school") return ground(kBlack, kLime, 0.05);
+  if (kind == "board_red") return ground(kWhite, kRed, 0.05);
+  if (kind == "beacon") {  // stripes that fall towards the road
+    ground(kWhite, kWhite, 0.07);
+    for (const double y : {-0.6, 0.0, 0.6}) canvas.Bar({-0.7, y - 0.2}, {0.7, y + 0.2}, 0.28, kRed);
+    return;
+  }
+  if (kind.starts_with("exit_beacon")) {  // a stripe each 100 m to the exit
+    ground(kWhite, kBlue, 0.07);
+    const int stripes = kind == "exit_beacon" ? 3 : kind == "exit_beacon_two" ? 2 : 1;
+    for (int k = 0; k < stripes; ++k) {
+      const double y = 0.6 * k - 0.3 * (stripes - 1);
+      canvas.Bar({-0.7, y - 0.2}, {0.7, y + 0.2}, 0.16, kWhite);
+    }
     return;
   }
   if (kind == "board") return ground(kBlack, kWhite, 0.03);
@@ -223,6 +294,19 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
   if (kind == "parking") Letter(canvas, "P", {0.0, 0.0}, 1.2, 1.6, kWhite);
   if (kind == "motorway" || kind == "end_of_motorway") Motorway(canvas);
   if (kind == "end_of_motorway") canvas.Bar({-0.95, -0.95}, {0.95, 0.95}, 0.16, kRed);
+}
+
+void DrawPointed(Canvas& canvas, const std::string& kind) {
+  canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kBlack);
+  if (kind == "pennant")
+    return canvas.Fill(Smaller({P(-1.0, -1.0), P(1.0, 0.0), P(-1.0, 1.0)}, {-0.38, 0.0}, 0.9), kYellow);
+  canvas.Fill(Polyline{P(-0.94, -0.94), P(0.94, -0.94), P(0.94, -0.03), P(0.0, 0.91), P(-0.94, -0.03)}, kLime);
+  for (const double x : {-0.3, 0.3}) {  // two walkers
+    canvas.Disc({x, 0.22}, 0.11, kBlack);
+    canvas.Stroke(Polyline{P(x, 0.02), P(x, -0.32)}, 0.18, kBlack);
+    canvas.Stroke(Polyline{P(x, -0.32), P(x - 0.14, -0.72)}, 0.1, kBlack);
+    canvas.Stroke(Polyline{P(x, -0.32), P(x + 0.14, -0.72)}, 0.1, kBlack);
+  }
 }
 
 void DrawPriority(Canvas& canvas, const std::string& kind) {
@@ -242,8 +326,10 @@ void DrawPriority(Canvas& canvas, const std::string& kind) {
     return canvas.Fill(Smaller({P(-1.0, 1.0), P(0.0, -1.0), P(1.0, 1.0)}, {0.0, 0.33}, 0.68), kWhite);
   }
   canvas.Fill(Polyline{P(-0.95, 0.0), P(0.0, -0.95), P(0.95, 0.0), P(0.0, 0.95)}, kBlack);
-  if (kind == "warning_diamond")
-    return canvas.Fill(Polyline{P(-0.89, 0.0), P(0.0, -0.89), P(0.89, 0.0), P(0.0, 0.89)}, kYellow);
+  if (kind.starts_with("warning_")) {
+    const Colour inside = kind == "warning_orange" ? kOrange : kind == "warning_school" ? kLime : kYellow;
+    return canvas.Fill(Polyline{P(-0.89, 0.0), P(0.0, -0.89), P(0.89, 0.0), P(0.0, 0.89)}, inside);
+  }
   canvas.Fill(Polyline{P(-0.91, 0.0), P(0.0, -0.91), P(0.91, 0.0), P(0.0, 0.91)}, kWhite);
   canvas.Fill(Polyline{P(-0.62, 0.0), P(0.0, -0.62), P(0.62, 0.0), P(0.0, 0.62)}, kYellow);
   if (kind == "end_of_priority_road") {

@@ -11,7 +11,9 @@ namespace rodeira::scene {
 void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text);
 void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& text);
 void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& text);
-// Stop, give way, priority road and its end.
+// The pentagon of schools and the pennant that ends passing.
+void DrawPointed(Canvas& canvas, const std::string& kind);
+// Stop, give way, and what is on a diamond: priority road, its end, and warnings.
 void DrawPriority(Canvas& canvas, const std::string& kind);
 
 }  // namespace rodeira::scene

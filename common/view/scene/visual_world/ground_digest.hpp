@@ -10,7 +10,7 @@
 namespace rodeira::scene {
 
 // Changes whenever the same world is drawn otherwise than before.
-inline constexpr const char* kGroundVersion = "ground 21";
+inline constexpr const char* kGroundVersion = "ground 22";
 
 // Equal paint has equal digests: of pieces, and of a tile's.
 base::Digest PaintDigest(std::span<const PaintPiece> paint);

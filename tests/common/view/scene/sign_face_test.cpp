@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "common/view/scene/raster/lettering.hpp"
 #include "common/world/design/furniture_reader.hpp"
+#include "common/world/network/sign_catalogues.hpp"
+#include "common/world/network/sign_kinds.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -121,11 +125,15 @@ TEST(SignFace, OtherCataloguesHaveTheirShapeAndColour) {
     signal.country = country, signal.type = type, signal.subtype = subtype, signal.name = name;
     return FaceOf(signal, false);
   };
-  EXPECT_EQ(face("DE", "222"), "keep_right");
+  // Catalogue of signs (VzKat): -10 is to the left, -20 to the right.
+  EXPECT_EQ(face("DE", "222", "10"), "keep_left");
+  for (const char* right : {"20", "-1"}) EXPECT_EQ(face("DE", "222", right), "keep_right");
   for (const char* blue : {"332", "333", "406", "430", "440", "449"}) EXPECT_EQ(face("DE", blue), "guide_blue") << blue;
   // StVO of 1970, § 42 (8): 435 and 436 are 434 in other shapes.
   for (const char* yellow : {"434", "435", "436"}) EXPECT_EQ(face("DE", yellow), "guide_yellow") << yellow;
-  for (const char* beacon : {"450", "451", "452"}) EXPECT_EQ(face("OpenDRIVE", beacon, "50"), "exit_beacon") << beacon;
+  EXPECT_EQ(face("OpenDRIVE", "450", "50"), "exit_beacon");
+  EXPECT_EQ(face("OpenDRIVE", "451", "-1"), "exit_beacon_two");
+  EXPECT_EQ(face("OpenDRIVE", "452", "-1"), "exit_beacon_one");
   EXPECT_EQ(face("DE", "605", "10"), "beacon");
   EXPECT_EQ(face("DE", "103"), "bend_right");
   EXPECT_EQ(face("US", "R1-1"), "stop");
@@ -137,7 +145,14 @@ TEST(SignFace, OtherCataloguesHaveTheirShapeAndColour) {
   EXPECT_EQ(face("GB", "601.1"), "stop");
   EXPECT_EQ(face("uk", "602"), "give_way");
   EXPECT_EQ(face("GB", "512"), "danger");
-  EXPECT_EQ(face("GB", "629"), "prohibition");
+  EXPECT_EQ(face("GB", "629"), "restriction");
+  EXPECT_EQ(face("gb", "610"), "keep_left");  // drawn so; traffic keeps left
+  for (const char* stop : {"r1-1", "R1-1", "r1-1A"}) EXPECT_EQ(face("us", stop), "stop") << stop;
+  EXPECT_EQ(face("us", "w20", "1"), "warning_orange");
+  EXPECT_EQ(face("US", "R5-1a"), "board_red");
+  EXPECT_EQ(face("CN", "指示7"), "keep_right");
+  EXPECT_EQ(face("CN", "指路42"), "guide_green");
+  EXPECT_EQ(face("CN", "路4"), "guide_blue");
   EXPECT_EQ(face("CN", "禁1"), "stop");
   EXPECT_EQ(face("CN", "禁12"), "prohibition");
   EXPECT_EQ(face("CN", "警13"), "warning_yellow");
@@ -163,9 +178,99 @@ TEST(SignFace, OtherCataloguesHaveTheirShapeAndColour) {
   EXPECT_EQ(PlateOutline("keep_right").size(), 20u);
 }
 
+// Shape and colour of each row, by the figures of MUTCD 2009, TSRGD 2016 and GB 5768.2-2009. A row without a line here
+// fails.
+struct Figures {
+  const char* country;
+  std::size_t corners;  // of the plate
+  const char* colour;   // of which there is most, black and white apart
+  const char* codes;
+};
+constexpr Figures kFigures[] = {
+    {"US", 8, "red", "R1-1"},
+    {"US", 9, "red", "R1-2"},
+    {"US", 4, "", "R2-1 R4-7 R4-8 R6-1 R S5- M"},
+    {"US", 4, "red", "R3-1 R3-2 R3-4 R3-18 R3-27 R5-1A R5-1 R5-2 R5-6 R8-3 R9-3"},
+    {"US", 4, "brown", "RS D7-"},
+    {"US", 4, "yellow", "W1-6 W1-7 W1-8 W13-1 W16- W"},
+    {"US", 20, "yellow", "W10-1"},
+    {"US", 3, "yellow", "W14-3"},
+    {"US", 4, "orange", "W20- W21- W22- W23- W24- G20- M4-8 M4-9 M4-10"},
+    {"US", 5, "lime", "S1-1"},
+    {"US", 4, "lime", "S3- S4-5 S4-"},
+    {"US", 4, "blue", "D5- D9- D12-"},
+    {"US", 4, "green", "D E G I"},
+    {"GB", 4, "", "502 503 511 515 525 526 527 546 547 572 573 615.1"},
+    {"GB", 9, "red", "5 602 7001"},
+    {"GB", 8, "red", "601.1"},
+    {"GB", 20, "blue", "606 609 610 611.1 611 672"},
+    {"GB", 20, "red", "612 613 614 615 616 617 619 622 625 627 629 632 636 642 670"},
+    {"GB", 20, "", "671"},
+    {"GB", 4, "blue", "652 660 661 801 811 816 29"},
+    {"GB", 4, "green", "20"},
+    {"CN", 8, "red", "禁1"},
+    {"CN", 9, "red", "禁2"},
+    {"CN", 20, "red", "禁3 禁4 禁5 禁29 禁31 禁32 禁34 禁35 禁36 禁37 禁38 禁40 禁42 禁"},
+    {"CN", 20, "", "禁30 禁39"},
+    {"CN", 20, "blue", "示7 示8 示11 示"},
+    {"CN", 4, "", "禁43 禁44 禁45 禁46 禁47 禁48"},
+    {"CN", 4, "yellow", "警39 警45"},
+    {"CN", 9, "yellow", "警"},
+    {"CN", 4, "blue",
+     "示12 示13 示17 示18 示19 示20 示21 示22 示23 示24 示25 示26 示28 示30 示32 示33 示34 示35 示36 路36 路37 路4 路5 "
+     "路6 路7 路"},
+    {"CN", 4, "green", "路4 路5 路6 路7"},
+};
+
+std::string MostColour(const std::string& face) {
+  const std::map<std::string, Colour> names = {
+      {"red", Colour::Of(0xc2151d)},    {"blue", Colour::Of(0x17509b)}, {"yellow", Colour::Of(0xf6b915)},
+      {"orange", Colour::Of(0xf07c14)}, {"lime", Colour::Of(0xc5e72e)}, {"green", Colour::Of(0x006b54)},
+      {"brown", Colour::Of(0x693f23)},
+  };
+  std::map<std::string, int> pixels;
+  for (const Colour& pixel : DrawFace(face).pixels) {
+    for (const auto& [name, colour] : names) {
+      if (std::abs(pixel.red - colour.red) + std::abs(pixel.green - colour.green) + std::abs(pixel.blue - colour.blue) <
+          9)
+        ++pixels[name];
+    }
+  }
+  const auto most =
+      std::max_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == pixels.end() || most->second < 500 ? "" : most->first;
+}
+
+TEST(SignFace, EveryRowOfOtherCataloguesHasItsShapeAndColour) {
+  const auto rows = network::CataloguesAbroad();
+  ASSERT_GT(rows.size(), 120u);
+  std::map<std::string, int> seen;  // 路4 is there twice: by itself and as what others begin with
+  for (const network::CatalogueRow& row : rows) {
+    const std::string country(row.country), code(row.code);
+    const int turn = seen[country + code]++;
+    const Figures* figures = nullptr;
+    int found = 0;
+    for (const Figures& line : kFigures) {
+      if (country == line.country &&
+          (" " + std::string(line.codes) + " ").find(" " + code + " ") != std::string::npos && found++ == turn)
+        figures = &line;
+    }
+    ASSERT_NE(figures, nullptr) << country << " " << code << " has no line";
+    network::Signal signal;
+    signal.country = country, signal.type = turn == 0 ? code : code + "1", signal.subtype = "-1", signal.value = 40.0;
+    EXPECT_EQ(network::SignKindOf(signal), row.kind) << country << " " << code << ": another row goes before it";
+    const std::string face = FaceOf(signal, true);
+    EXPECT_NE(face, "plate") << code;
+    EXPECT_EQ(PlateOutline(face).size(), figures->corners) << country << " " << code << " " << face;
+    EXPECT_EQ(MostColour(face), figures->colour) << country << " " << code << " " << face;
+  }
+}
+
 TEST(SignFace, LeftAndRightMirrorOneAnother) {
-  for (const auto& [left, right] : {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"),
-                                    std::pair("bends_left_first", "bends_right_first")}) {
+  for (const auto& [left, right] :
+       {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"),
+        std::pair("chevron_yellow_left", "chevron_yellow_right"), std::pair("keep_left", "keep_right"),
+        std::pair("keep_left_us", "keep_right_us"), std::pair("bends_left_first", "bends_right_first")}) {
     const Raster a = DrawFace(left), b = DrawFace(right);
     int apart = 0;
     for (int y = 0; y < a.height_px; ++y) {
@@ -177,6 +282,18 @@ TEST(SignFace, LeftAndRightMirrorOneAnother) {
   // A chevron's point is on the side to which it points: white at the tip in the middle's height, red at its corners.
   EXPECT_GT(DrawFace("chevron_right").At(110, 64).green, 200);
   EXPECT_LT(DrawFace("chevron_right").At(3, 64).green, 100);
+}
+
+// StVO, annex 3: 300, 200 and 100 m before an exit.
+TEST(SignFace, ABeaconOfAnExitHasAStripeEach100Metres) {
+  for (const auto& [face, stripes] :
+       {std::pair("exit_beacon", 3), std::pair("exit_beacon_two", 2), std::pair("exit_beacon_one", 1)}) {
+    const Raster raster = DrawFace(face);
+    int begun = 0;
+    for (int y = 8; y + 8 < raster.height_px; ++y)  // within the border
+      begun += raster.At(64, y).red > 128 && raster.At(64, y - 1).red <= 128;
+    EXPECT_EQ(begun, stripes) << face;
+  }
 }
 
 TEST(SignFace, ColoursOfTheConvention) {
@@ -196,6 +313,7 @@ TEST(SignFace, ColoursOfTheConvention) {
   EXPECT_GT(at("priority_road", 0.3, 0.2).red, 220);  // B, 3: yellow inside
   EXPECT_LT(at("priority_road", 0.3, 0.2).blue, 60);
   EXPECT_TRUE(is_blue(at("roundabout", 0.0, 0.0)));
+  for (const char* stop : {"no_stopping", "no_waiting"}) EXPECT_TRUE(is_blue(at(stop, 0.45, 0.0))) << stop;
   EXPECT_TRUE(is_blue(at("motorway", -0.8, 0.8)));
 }
 

@@ -163,5 +163,26 @@ TEST(SignLimits, UnitsAreThoseOfTheSignAndMphWhereItsCountryCountsMiles) {
   EXPECT_FALSE(SignLimitOf(named));
 }
 
+// Speeds of a value without a unit: miles an hour on signs of the United Kingdom (TSRGD 670) and the United States
+// (MUTCD R2-1), km/h in China (GB 5768.2).
+TEST(SignLimits, OfOtherCataloguesAreInTheirCountrysUnit) {
+  const auto limit = [](const char* country, const char* type, double value) {
+    Signal sign;
+    sign.country = country, sign.type = type, sign.subtype = "-1", sign.value = value;
+    return SignLimitOf(sign);
+  };
+  constexpr double kMph = 0.44704;
+  EXPECT_NEAR(limit("GB", "670", 30.0)->speed_mps.value(), 30.0 * kMph, 1e-12);
+  EXPECT_NEAR(limit("US", "R2-1", 55.0)->speed_mps.value(), 55.0 * kMph, 1e-12);
+  EXPECT_NEAR(limit("usa", "r2-1", 55.0)->speed_mps.value(), 55.0 * kMph, 1e-12);
+  EXPECT_NEAR(limit("CN", "禁38", 40.0)->speed_mps.value(), 40.0 * kKmh, 1e-12);
+  for (const auto& [country, type] : {std::pair("GB", "671"), std::pair("CN", "禁39")}) {
+    ASSERT_TRUE(limit(country, type, 40.0)) << type;
+    EXPECT_FALSE(limit(country, type, 40.0)->speed_mps) << type;
+  }
+  EXPECT_FALSE(limit("GB", "610", 40.0));
+  EXPECT_FALSE(limit("US", "W13-1", 35.0)) << "advice is no limit";
+}
+
 }  // namespace
 }  // namespace rodeira::network
