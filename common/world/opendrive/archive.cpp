@@ -17,12 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kSmall = std::size_t{1} << 24;  // unpacked; so much is never called a bomb
-constexpr std::size_t kMaxRatio = 250;                // numbers in XML are packed by 5 to 40 times
 constexpr std::size_t kMaxFiles = 10'000;
 constexpr std::uint64_t kIsEncrypted = 1;  // in a ZIP entry's flags
 
 bool IsTooMuch(std::size_t unpacked, std::size_t packed) {
-  return unpacked > kMaxUnpackedBytes || (unpacked > kSmall && unpacked / kMaxRatio > packed);
+  return unpacked > kMaxUnpackedBytes || IsBomb(unpacked, packed);
 }
 
 base::Error TooMuch(const std::string& what, std::size_t unpacked, std::size_t packed, const fs::path& path) {
@@ -32,7 +31,7 @@ base::Error TooMuch(const std::string& what, std::size_t unpacked, std::size_t p
           ? fmt::format("{} unpacks to more than {} MiB; that is too much for a road network", what,
                         kMaxUnpackedBytes >> 20)
           : fmt::format("{} unpacks to more than {} times its {} bytes; this is no road network but a zip bomb", what,
-                        kMaxRatio, packed),
+                        kMaxPackedRatio, packed),
       path.string());
 }
 
@@ -89,6 +88,10 @@ bool IsOfFinder(const std::string& name) {
 }
 
 }  // namespace
+
+bool IsBomb(std::size_t unpacked, std::size_t packed) {
+  return unpacked > kSmall && unpacked / kMaxPackedRatio > packed;
+}
 
 bool IsGzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || bytes.starts_with("PK\x05\x06"); }

@@ -19,6 +19,11 @@ inline constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 29;
 bool IsGzip(std::string_view bytes);
 bool IsZip(std::string_view bytes);
 
+inline constexpr std::size_t kMaxPackedRatio = 250;  // numbers in XML are packed by 5 to 40 times
+// Whether data of so many bytes, of which so much is unpacked by now, is no file of roads but made to fill a memory or
+// a disk: from 16 MiB on more than kMaxPackedRatio times what is packed.
+bool IsBomb(std::size_t unpacked, std::size_t packed);
+
 // What is unpacked is bounded by kMaxUnpackedBytes and, from 16 MiB on, by 250 times what is packed. Wrong input beyond
 // these bounds and where the data is damaged or cut short.
 base::Result<std::string> Gunzip(std::string_view bytes, const std::filesystem::path& path);

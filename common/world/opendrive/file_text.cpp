@@ -68,6 +68,22 @@ std::vector<pugi::xml_node> IncludesIn(const pugi::xml_document& document) {
   return std::move(walker.includes);
 }
 
+// An element of four bytes becomes a node of 70: a text within the bounds of a file must not fill the memory.
+base::Status HasSaneCounts(const std::string& text, const fs::path& path) {
+  constexpr std::size_t kMaxElements = std::size_t{1} << 24, kMaxAttributes = std::size_t{1} << 26;
+  std::size_t elements = 0;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
+    elements += at + 1 < text.size() && text[at + 1] != '/';
+  const auto attributes = static_cast<std::size_t>(std::count(text.begin(), text.end(), '='));
+  if (elements <= kMaxElements && attributes <= kMaxAttributes) return {};
+  return base::WrongInput(
+      "file.too_large",
+      elements > kMaxElements
+          ? fmt::format("it has {} elements; at most {} were expected of a road network", elements, kMaxElements)
+          : fmt::format("it has {} attributes; at most {} were expected of a road network", attributes, kMaxAttributes),
+      path.string());
+}
+
 // A file of an archive as text; nothing where it cannot be read.
 std::optional<std::string> TextOf(const Archive& archive, const std::string& name, const fs::path& path) {
   auto bytes = archive.Read(name);
@@ -75,7 +91,7 @@ std::optional<std::string> TextOf(const Archive& archive, const std::string& nam
     bytes = Gunzip(bytes.value(), path);
   if (!bytes) return std::nullopt;
   auto text = ToUtf8(std::move(bytes).value(), path);
-  return text ? std::optional(std::move(text).value()) : std::nullopt;
+  return text && HasSaneCounts(text.value(), path) ? std::optional(std::move(text).value()) : std::nullopt;
 }
 
 // Of several files of an archive those that no other file includes. All of them where what is read of the archive is
@@ -149,6 +165,7 @@ base::Result<Found> Unpack(std::string bytes, Place place, const fs::path& path)
   auto text = ToUtf8(std::move(bytes), path);
   if (!text) return text.error();
   if (const auto status = LooksLikeXml(text.value(), path); !status) return status.error();
+  if (const auto status = HasSaneCounts(text.value(), path); !status) return status.error();
   return Found{std::move(text).value(), std::move(place)};
 }
 
@@ -200,7 +217,7 @@ std::string Content(const std::string& text, const pugi::xml_document& document,
   return content;
 }
 
-// What files include is put in their place, innermost first.
+// What files include is put in their place, innermost first. A file that is included again is not read again.
 class Includes {
  public:
   explicit Includes(const fs::path& path) : path_(path) {}
@@ -238,7 +255,19 @@ class Includes {
           fmt::format("the path of '{}', which <include> of '{}' names, leaves the archive; one inside it was "
                       "expected",
                       file, by.name.filename().string()));
-    auto found = Open(file, by);
+    if (++count_ > kMaxIncludes) return refuse(fmt::format("more than {} files are included", kMaxIncludes));
+    const std::string key =
+        (by.archive ? "in an archive: " : "") + (by.name.parent_path() / Named(file)).lexically_normal().string();
+    auto known = opened_.find(key);
+    if (known == opened_.end()) {
+      known = opened_.emplace(key, Open(file, by)).first;
+      const bool in_archive =
+          by.archive != nullptr &&
+          by.archive->Has((by.name.parent_path() / Named(file)).lexically_normal().generic_string());
+      opened_bytes_ += known->second ? known->second.value().text.size() : in_archive ? kUnreadBytes : 0;
+      if (opened_bytes_ > kMaxBytes) return refuse(TooLong());
+    }
+    const base::Result<Found>& found = known->second;
     if (!found) {
       unread_.emplace(file, found.error().message);
       return std::optional<std::string>();
@@ -252,12 +281,11 @@ class Includes {
       return refuse(fmt::format("'{}' includes itself, by <include file=\"{}\"> of '{}'",
                                 found.value().place.name.filename().string(), file, by.name.filename().string()));
     if (open_.size() >= kMaxDepth) return refuse(fmt::format("files include one another {} deep", kMaxDepth));
-    if (++count_ > kMaxIncludes) return refuse(fmt::format("more than {} files are included", kMaxIncludes));
     auto edits = EditsOf(found.value());
     if (!edits) return edits.error();
     const std::string text = Apply(found.value().text, edits.value());
-    if ((bytes_ += text.size()) > kMaxBytes)
-      return refuse(fmt::format("what is included is longer than {} MiB", kMaxBytes >> 20));
+    if ((bytes_ += text.size()) > kMaxBytes) return refuse(TooLong());
+    if (const auto status = HasSaneCounts(text, found.value().place.name); !status) return status.error();
     pugi::xml_document document;
     if (!Parse(document, text)) {
       unread_.emplace(file, "it is no XML");
@@ -266,10 +294,13 @@ class Includes {
     return std::optional(Content(text, document, parent));
   }
 
+  static std::string TooLong() { return fmt::format("what is included is longer than {} MiB", kMaxBytes >> 20); }
+
   const fs::path& path_;
+  std::map<std::string, base::Result<Found>> opened_;
   std::vector<Place> open_;  // those that include one another, outermost first
   std::map<std::string, std::string> unread_;
-  std::size_t count_ = 0, bytes_ = 0;
+  std::size_t count_ = 0, bytes_ = 0, opened_bytes_ = 0;
 };
 
 }  // namespace
@@ -288,6 +319,7 @@ base::Result<FileText> ReadFileText(const fs::path& path) {
   file.edited.surface_files = std::make_shared<SurfaceFiles>(path.parent_path());
   if (edits.value().empty()) return file;
   file.text = Apply(file.text, edits.value());
+  if (const auto status = HasSaneCounts(file.text, path); !status) return status.error();
   file.edited.maps.emplace_back(edits.value());
   file.edited.includes = 1;
   return file;

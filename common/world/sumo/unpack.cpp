@@ -16,6 +16,7 @@
 
 #include "common/core/base/nearest_file.hpp"
 #include "common/core/base/open_error.hpp"
+#include "common/world/opendrive/archive.hpp"
 
 namespace rodeira::sumo {
 namespace {
@@ -90,6 +91,8 @@ base::Status Unpack(const std::filesystem::path& file, SourceKind kind, const st
   if (!in) return base::OpenError("the file cannot be opened", errno, file.string());
   std::ofstream out(copy, std::ios::binary);
   std::vector<char> buffer(kHead);
+  const auto packed = std::filesystem::file_size(file, problem);
+  if (problem) return base::WrongInput("file.cannot_read", problem.message(), file.string());
   std::uint64_t bytes = 0;
   while (true) {
     const int size = ::gzread(in.get(), buffer.data(), static_cast<unsigned>(buffer.size()));
@@ -105,6 +108,12 @@ base::Status Unpack(const std::filesystem::path& file, SourceKind kind, const st
     bytes += static_cast<std::uint64_t>(size);
     if (bytes > kMaxBytes)
       return base::WrongInput("file.too_large", fmt::format("the file has more than {} bytes unpacked", kMaxBytes),
+                              file.string());
+    if (opendrive::IsBomb(bytes, packed))
+      return base::WrongInput("file.too_large",
+                              fmt::format("the file unpacks to more than {} times its {} bytes; this is no map but a "
+                                          "bomb",
+                                          opendrive::kMaxPackedRatio, packed),
                               file.string());
     out.write(buffer.data(), size);
     if (!out)

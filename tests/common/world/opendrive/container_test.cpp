@@ -235,6 +235,96 @@ TEST_F(Container, BombsAndPathsThatLeaveTheArchiveAreRefused) {
   EXPECT_FALSE(fs::exists(folder_.path().parent_path() / "a.xodr"));
 }
 
+// Small elements take many times their length of the memory in which they are read.
+TEST_F(Container, AFileOfTooManyElementsOrAttributesIsRefusedBeforeItIsRead) {
+  const auto times = [](std::size_t count, std::string_view part) {
+    std::string text;
+    text.reserve(count * part.size());
+    for (std::size_t i = 0; i < count; ++i) text += part;
+    return text;
+  };
+  EXPECT_THAT(Refusal(Put("nodes.xodr", Document(times((std::size_t{1} << 24) + 1, "<a/>")))),
+              AllOf(HasSubstr("elements; at most 16777216 were expected"), testing::Not(HasSubstr("\n"))));
+  EXPECT_THAT(Refusal(Put("attributes.xodr", Document("<a " + times((std::size_t{1} << 26) + 1, "=") + "/>"))),
+              HasSubstr("attributes; at most 67108864"));
+}
+
+// Includes of an archive: each name is unpacked once, and those that cannot be read count.
+TEST_F(Container, WhatIsIncludedAgainIsCountedAndReadOnce) {
+  const auto including = [](const std::string& file, int count) {
+    std::string text = RoadText().Text();
+    for (int i = 0; i < count; ++i) text += "<include file=\"" + file + "\"/>";
+    return Document(text);
+  };
+  // 24 MiB that are packed by 1000 times: a bomb that is refused each time that it is unpacked.
+  const std::string bomb = Gzipped("<a/>" + std::string(std::size_t{24} << 20, ' '));
+  const fs::path few = Zip("few.zip", {{"m.xodr", including("b.gz", 9'999)}, {"b.gz", bomb}});
+  const auto import = Load(few);
+  ASSERT_TRUE(import.ok()) << import.error().Text();
+  ASSERT_EQ(import.value().warnings.size(), 1u);
+  EXPECT_EQ(import.value().warnings[0].rule, "core.include");
+  EXPECT_THAT(Refusal(Zip("many.zip", {{"m.xodr", including("b.gz", 10'001)}, {"b.gz", bomb}})),
+              HasSubstr("more than 10000"));
+  EXPECT_THAT(Refusal(Zip("none.zip", {{"m.xodr", including("none.xml", 10'001)}})), HasSubstr("more than 10000"));
+}
+
+// Each in its way: surrogate pairs (RFC 2781, section 2.1: U+1F6E3 is D83D DEE3), UTF-32, odd counts of bytes, packed.
+TEST_F(Container, WideEncodingsAreReadWhereverTheyStand) {
+  const std::string motorway = "\xf0\x9f\x9b\xa3";  // U+1F6E3
+  std::string wide = Utf16(Declared("UTF-16", "@"), true, true);
+  wide.replace(wide.find(std::string("@\0", 2)), 2, "\x3d\xd8\xe3\xde");
+  for (const fs::path& path :
+       {Put("pair.xodr", wide), Put("pair.xodrz", Gzipped(wide)), Zip("pair.zip", {{"a.xodr", wide}})}) {
+    const auto import = Load(path);
+    ASSERT_TRUE(import.ok()) << import.error().Text();
+    ASSERT_NE(import.value().network, nullptr) << path;
+    EXPECT_EQ(import.value().network->roads()[0].spec().name, motorway) << path;
+  }
+  // Half a character at the end is no crash and no half read road.
+  const auto odd = Load(Put("odd.xodr", wide + "x"));
+  if (odd.ok()) {
+    ASSERT_NE(odd.value().network, nullptr);
+    EXPECT_EQ(odd.value().network->roads().size(), 1u);
+  } else {
+    EXPECT_EQ(odd.error().exit_status(), 2);
+  }
+  std::string four = std::string("\xff\xfe\0\0", 4);
+  for (const char c : Declared("UTF-32", "a")) four += std::string(1, c) + std::string(3, '\0');
+  const auto utf32 = Load(Put("four.xodr", four));
+  if (utf32.ok()) {
+    ASSERT_NE(utf32.value().network, nullptr);
+    EXPECT_EQ(utf32.value().network->roads()[0].spec().name, "a");
+  } else {
+    EXPECT_EQ(utf32.error().exit_status(), 2);
+  }
+}
+
+TEST_F(Container, ArchivesWithManyFilesOrAPasswordAreRefused) {
+  const std::string text = Document(RoadText().Text());
+  std::vector<std::pair<std::string, std::string>> files(10'001, {"", "x"});
+  for (std::size_t i = 0; i < files.size(); ++i) files[i].first = std::to_string(i);
+  EXPECT_THAT(Refusal(Zip("many.zip", files)), HasSubstr("the archive holds more than 10000 files"));
+  // Bit 0 of the flags in the local header and in the central directory (APPNOTE 4.4.4).
+  const fs::path path = Zip("secret.zip", {{"a.xodr", text}});
+  std::string bytes = base::ReadText(path).value();
+  bytes[6] = static_cast<char>(bytes[6] | 1);
+  const std::size_t central = bytes.find("PK\x01\x02");
+  ASSERT_NE(central, std::string::npos);
+  bytes[central + 8] = static_cast<char>(bytes[central + 8] | 1);
+  EXPECT_THAT(Refusal(Put("secret.zip", bytes)), HasSubstr("'a.xodr' in the archive is encrypted"));
+}
+
+TEST_F(Container, FilesThatIncludeOneAnotherTooDeepAreRefused) {
+  for (int i = 0; i < 20; ++i)
+    Put("p" + std::to_string(i) + ".xml", "<include file=\"p" + std::to_string(i + 1) + ".xml\"/>");
+  Put("p20.xml", RoadText().Text());
+  EXPECT_THAT(Refusal(Put("deep.xodr", Document("<include file=\"p0.xml\"/>"))), HasSubstr("16 deep"));
+  const auto import = Load(Put("less.xodr", Document("<include file=\"p8.xml\"/>")));
+  ASSERT_TRUE(import.ok()) << import.error().Text();
+  ASSERT_NE(import.value().network, nullptr);
+  EXPECT_EQ(import.value().network->roads().size(), 1u);
+}
+
 TEST_F(Container, WhatIsNoRoadFileIsSaidInOneSentence) {
   const std::string text = Document(RoadText().Text());
   EXPECT_THAT(Refusal(Put("e.xodr", "")), HasSubstr("e.xodr: the file is empty; an OpenDRIVE file (XML) was expected"));
