@@ -280,6 +280,8 @@ std::vector<Node> Node::Children(const char* element) const {
 
 namespace {
 
+constexpr double kStationRounding = 1e-6;  // comes from the digits of a file; m
+
 void WarnOfTwo(const Node& record, std::string_view rule, const char* from, double s_m) {
   Source& source = record.source();
   source.warnings.push_back({std::string(rule),
@@ -306,10 +308,18 @@ geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* fr
     const Node& record = records[*behind];
     Within within(record.source());
     record.source().where.s_m = cubics[*behind].from;
+    Repair repair{RepairKind::kSorted, fmt::format("they are read in the order of {}", from), Reorder(records, order)};
+    // Both at one place but for rounding: the one written later counts, as of two with the same digits.
+    for (std::size_t i = 0; i < *behind; ++i) {
+      if (!(cubics[i].from > cubics[*behind].from && cubics[i].from - cubics[*behind].from <= kStationRounding))
+        continue;
+      repair = {RepairKind::kDuplicateDropped, "of those at one place the last counts", {records[i].Remove()}};
+      break;
+    }
     record.Wrong(rule,
                  fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
                              record.name(), from, record.Number(from), from),
-                 {RepairKind::kSorted, fmt::format("they are read in the order of {}", from), Reorder(records, order)});
+                 std::move(repair));
   }
   std::vector<geometry::Cubic> table;  // of those at one place the last
   for (const std::size_t i : order) {
