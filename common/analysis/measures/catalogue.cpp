@@ -47,6 +47,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kNamesOfH
 
 }  // namespace
 
+std::span<const std::pair<std::string_view, std::string_view>> NamesOfHighD() { return kNamesOfHighD; }
+
 base::Result<const MeasureInfo*> FindMeasure(const std::string& name) {
   for (const auto& [theirs, own] : kNamesOfHighD) {
     if (name == theirs) return FindMeasure(std::string(own));

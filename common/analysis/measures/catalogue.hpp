@@ -59,7 +59,9 @@ struct MeasureInfo {
 
 // All of them, in the order of a table's columns.
 const std::vector<MeasureInfo>& Catalogue();
-// Also by the name of highD's files (minTTC). Wrong input, with the nearest right name, where there is none.
+// Names of measures in highD's files (minTTC), each with that of this catalogue.
+std::span<const std::pair<std::string_view, std::string_view>> NamesOfHighD();
+// Also by the name of highD's files. Wrong input, with the nearest right name, where there is none.
 base::Result<const MeasureInfo*> FindMeasure(const std::string& name);
 
 // By family, for Catalogue().

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/analysis/measures/measures_schema.hpp"
 #include "common/core/base/suggest.hpp"
-#include "common/core/config/config.hpp"
+#include "common/core/config/declared.hpp"
 
 namespace rodeira::measures {
 namespace {
@@ -19,14 +20,15 @@ IntervalSpec WholeRecording() {
   return whole;
 }
 
-void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
-  const config::List list = root.OptionalItems("intervals");
+void ReadIntervals(const config::DeclaredMap& root, MeasuresSpec& spec) {
+  const config::DeclaredList list = root.Items("intervals");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const config::Map item = list.At(i);
+    const config::DeclaredMap declared = list.At(i);
+    const config::Map& item = declared.map();
     IntervalSpec interval;
-    interval.name = item.Text("name");
+    interval.name = declared.Text("name");
     const auto read = [&](const char* key, TimePoint& into) {
-      auto point = ParseTimePoint(item.Text(key));
+      auto point = ParseTimePoint(declared.MapWith(key).Text(key));
       if (point)
         into = std::move(point).value();
       else
@@ -35,17 +37,15 @@ void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
     const bool is_while = item.Has("while");
     interval.to.kind = TimePoint::Kind::kEnd;
     if (!is_while || item.Has("from")) read("from", interval.from);
-    if (item.Has("for_s"))
-      interval.for_s = item.Number("for_s", config::Range::Positive());
-    else if (!is_while || item.Has("to"))
-      read("to", interval.to);
+    interval.for_s = declared.OptionalNumber("for_s");
+    if (!item.Has("for_s") && (!is_while || item.Has("to"))) read("to", interval.to);
     if (is_while) {
-      auto condition = ParseCondition(item.Text("while"));
+      auto condition = ParseCondition(declared.Text("while", ""));
       if (condition)
         interval.condition = std::move(condition).value();
       else
         item.Problem("while", condition.error().id, condition.error().message);
-      if (item.Has("min_s")) interval.min_s = item.Number("min_s", config::Range::Positive());
+      interval.min_s = declared.OptionalNumber("min_s").value_or(0.0);
     }
     if (auto status = CheckInterval(interval); !status) item.Problem("name", status.error().id, status.error().message);
     const auto same = [&](const IntervalSpec& other) { return other.name == interval.name; };
@@ -55,28 +55,28 @@ void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
   }
 }
 
-void ReadLaneChangeTest(const config::Map& root, LaneChangeTest& test) {
-  if (!root.Has("lane_change_test")) return;
-  const config::Map map = root.Child("lane_change_test");
-  constexpr double kFar_m = 1e6;
-  test.start_t_m = map.Number("start_t_m", {-kFar_m, kFar_m});
-  if (map.Has("road")) test.road = static_cast<int>(map.Integer("road", 0, 1'000'000));
-  const config::List list = map.Items("signs");
+void ReadLaneChangeTest(const config::DeclaredMap& root, LaneChangeTest& test) {
+  if (!root.map().Has("lane_change_test")) return;
+  const config::DeclaredMap map = root.Child("lane_change_test");
+  test.start_t_m = map.Number("start_t_m");
+  if (const auto road = map.OptionalInteger("road")) test.road = static_cast<int>(*road);
+  const config::DeclaredList list = map.Items("signs");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const config::Map item = list.At(i);
-    const LaneChangeSign sign{item.Number("s_m", {-kFar_m, kFar_m}), item.Number("t_m", {-kFar_m, kFar_m})};
+    const config::DeclaredMap item = list.At(i);
+    const LaneChangeSign sign{item.Number("s_m"), item.Number("t_m")};
     if (!test.signs.empty() && sign.s_m <= test.signs.back().s_m)
-      item.Problem(
+      item.map().Problem(
           "s_m", "measure.signs_not_ascending",
           fmt::format("{:g} was found behind {:g}; ascending stations were expected", sign.s_m, test.signs.back().s_m));
     test.signs.push_back(sign);
   }
 }
 
-void ReadMeasures(const config::Map& root, MeasuresSpec& spec) {
-  if (!root.Has("measures")) return;
+void ReadMeasures(const config::DeclaredMap& root, MeasuresSpec& spec) {
+  if (!root.map().Has("measures")) return;
   spec.measures.clear();
-  const config::List list = root.OptionalItems("measures");
+  const config::DeclaredList declared = root.Items("measures");
+  const config::List& list = declared.list();
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto info = FindMeasure(list.Text(i));
     if (!info)
@@ -86,18 +86,18 @@ void ReadMeasures(const config::Map& root, MeasuresSpec& spec) {
   }
 }
 
-void ReadOptions(const config::Map& root, MeasuresSpec& spec) {
-  const config::Map options = root.OptionalChild("options");
-  for (const std::string& name : options.Keys()) {
+void ReadOptions(const config::DeclaredMap& root, MeasuresSpec& spec) {
+  const config::DeclaredMap options = root.Child("options");
+  for (const std::string& name : options.map().Keys()) {
     const auto info = FindMeasure(name);
     if (!info) {
-      options.Problem(name, info.error().id, info.error().message);
+      options.map().Problem(name, info.error().id, info.error().message);
       continue;
     }
-    const config::Map own = options.Child(name);
+    const config::DeclaredMap own = options.Child(name);
     for (const OptionInfo& option : info.value()->options) {
-      if (!own.Has(option.name)) continue;
-      spec.options[info.value()->name][option.name] = own.Number(option.name, {option.low, option.high});
+      if (!own.map().Has(option.name)) continue;
+      spec.options[info.value()->name][option.name] = own.Number(option.name);
     }
   }
 }
@@ -151,14 +151,15 @@ base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
   const auto file = config::File::Load(path);
   if (!file) return file.error();
   const config::Map root = file.value().root();
-  root.Choice("rodeira", {"measures/1"});
+  const config::DeclaredMap declared(root, MeasuresSchema().keys);
+  (void)declared.Word("rodeira");
   MeasuresSpec spec = DefaultSpec();
-  spec.subject = root.Text("subject", "");
-  spec.baseline = root.Text("baseline", "");
-  ReadIntervals(root, spec);
-  ReadMeasures(root, spec);
-  ReadLaneChangeTest(root, spec.lane_change_test);
-  ReadOptions(root, spec);
+  spec.subject = declared.Text("subject", "");
+  spec.baseline = declared.Text("baseline", "");
+  ReadIntervals(declared, spec);
+  ReadMeasures(declared, spec);
+  ReadLaneChangeTest(declared, spec.lane_change_test);
+  ReadOptions(declared, spec);
   root.IgnoreKey("recordings");  // a sidecar lists what its table was made of
   root.IgnoreKey("version");
   root.IgnoreKey("values");
