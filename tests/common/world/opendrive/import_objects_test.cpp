@@ -216,7 +216,7 @@ TEST(OpenDrive, FramesFillingsSkeletonsAndMaterialsAreRead) {
       <vertexRoad s="30" t="8" dz="4" radius="0.1"/></polyline>
       <polyline id="2"><vertexLocal u="0" v="0" z="3" width="0.2" length="0.1"/>
         <vertexLocal u="0" v="-2" z="3.5" width="0.2" length="0.1"/></polyline></skeleton></object></objects>
-    <signals><signal id="1" s="5" t="-4" type="r1-1" subtype="-1" country="US"><semantics><priority type="stop"/>
+    <signals><signal id="1" s="5" t="-4" type="x1-1" subtype="-1" country="US"><semantics><priority type="stop"/>
       </semantics></signal></signals>)";
   const Import import = MustImport(Document(road.Text()));
   ASSERT_EQ(import.warnings.size(), 1u);  // the plate's unknown face
