@@ -52,7 +52,7 @@ class Decisions {
   double Wanted(std::uint32_t id, std::int64_t step_ns);
   // In the steps between: first its leader of the last such step as that one is now …
   void KeepLeader(std::uint32_t id);
-  // … then what it wanted then or, where that is less, what its leader, a light that changes or a command lets it now.
+  // ... then what it wanted at that step or, where that is less, what its leader, a changed light or a command allows.
   double Kept(std::uint32_t id);
 
  private:

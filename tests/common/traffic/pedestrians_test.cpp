@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// People on foot: nobody is touched, pedestrian waits is let go, and the arithmetic of it.
+// People on foot: no pedestrian is touched, one that waits is let go, and the arithmetic of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
