@@ -71,14 +71,14 @@ TEST(RoadFiles, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   const system_test::Ended strict = again({"--strict", file.string()});
   EXPECT_EQ(strict.status, 2);
   EXPECT_THAT(strict.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
-  EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
+  EXPECT_EQ(again({file.string(), "--force", "--repair", repaired.string()}).status, 0);
   EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
   const system_test::Ended mode =
       check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
   EXPECT_EQ(mode.status, 0);
   EXPECT_THAT(mode.out, Names("s.xodr:8: road.surface.crg.mode: road 1, s 0: … 'attachd' … 'attached'"));
   EXPECT_EQ(again({"--strict", file.string()}).status, 2);
-  EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
+  EXPECT_EQ(again({file.string(), "--force", "--repair", repaired.string()}).status, 0);
   EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
   EXPECT_THAT(base::ReadText(repaired).value(), HasSubstr("mode=\"attached\""));
   // Cut in the middle of a number.
@@ -89,7 +89,7 @@ TEST(RoadFiles, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   EXPECT_EQ(cut.status, 0);
   EXPECT_THAT(cut.out, Names("s.xodr:8: rodeira.surface.damaged: road 1, s 0: … 'cut.crg' … cut.crg"));
   EXPECT_EQ(again({"--strict", file.string()}).status, 2);
-  EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
+  EXPECT_EQ(again({file.string(), "--force", "--repair", repaired.string()}).status, 0);
   EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
   const system_test::Ended beyond =
       check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
