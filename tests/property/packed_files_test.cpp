@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <zip.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "common/core/base/temporary_folder.hpp"
 #include "common/world/opendrive/import.hpp"
 #include "common/world/sumo/unpack.hpp"
+#include "tests/common/world/opendrive/gzipped.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/property/fuzz.hpp"
 
@@ -23,26 +23,13 @@ namespace rodeira::property {
 namespace {
 
 namespace fs = std::filesystem;
+using opendrive::Gzipped;
 
 // Of this process, its largest so far.
 void ExpectMemoryBelow(long mib) {
   rusage used{};
   ASSERT_EQ(::getrusage(RUSAGE_SELF, &used), 0);
   EXPECT_LT(used.ru_maxrss / 1024, mib);
-}
-
-std::string Gzipped(const std::string& text) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
 }
 
 std::string Zipped(const fs::path& path, const std::vector<std::pair<std::string, std::string>>& files, int method) {

@@ -68,7 +68,11 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size,
         200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0)));
     const auto until = Wall::now() + std::chrono::seconds(10);
     auto before = seen();
-    for (std::this_thread::sleep_for(rest); seen() != before; std::this_thread::sleep_for(rest)) {
+    const auto is_still = [&] {
+      std::this_thread::sleep_for(rest);
+      return seen() == before;
+    };
+    while (!is_still()) {
       if (Wall::now() > until) Fail("the picture still changes 10 s after the last turn of the wheel");
       before = seen();
     }

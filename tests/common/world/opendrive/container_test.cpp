@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zip.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <string>
@@ -13,6 +12,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
+#include "tests/common/world/opendrive/gzipped.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::opendrive {
@@ -32,20 +32,6 @@ std::string Utf16(const std::string& latin1, bool little, bool mark) {
       wide += {'\0', c};
   }
   return wide;
-}
-
-std::string Gzipped(const std::string& text) {
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string packed(deflateBound(&stream, text.size()) + 64, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
 }
 
 class Container : public testing::Test {
